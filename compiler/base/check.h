@@ -1,0 +1,25 @@
+#pragma once
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace orbc {
+
+/// Prints what was compared and where, then aborts: a broken promise inside orbc itself is never a user's error.
+template <class A, class B>
+[[noreturn]] void check_failed(const char* expression, const A& left, const B& right, const char* file, int line) {
+  fmt::print(stderr, "orbc: internal error at {}:{}: {} (left {}, right {})\n", file, line, expression, left, right);
+  std::abort();
+}
+
+}  // namespace orbc
+
+/// ORBC_CHECK(a, <, b) aborts with both operands unless `a < b`.
+#define ORBC_CHECK(a, op, b)                                                                 \
+  do {                                                                                       \
+    const auto& orbc_left = (a);                                                             \
+    const auto& orbc_right = (b);                                                            \
+    if (!(orbc_left op orbc_right))                                                          \
+      ::orbc::check_failed(#a " " #op " " #b, orbc_left, orbc_right, __FILE__, __LINE__);    \
+  } while (false)

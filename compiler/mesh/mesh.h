@@ -1,0 +1,33 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiler/geometry/point.h"
+
+namespace orbc::mesh {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// 8-bit RGBA picture, sRGB-encoded, rows from top to bottom.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// A triangle mesh as it comes from a file or a formula: Euclidean, z up, counter-clockwise seen from outside.
+struct Mesh {
+  std::vector<geometry::Vector3> positions;
+  std::vector<std::array<float, 2>> uv;   ///< per vertex (v from top to bottom as in glTF), or empty
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> material;     ///< per triangle index into `colors`, or empty = 0
+  struct Look {                           ///< what the file says its surface looks like
+    std::array<double, 3> color{0.8, 0.8, 0.8};  ///< linear
+    int texture = -1;                     ///< index into `textures`
+  };
+  std::vector<Look> looks;                ///< empty when the file has no materials
+  std::vector<Image> textures;
+};
+
+}  // namespace orbc::mesh

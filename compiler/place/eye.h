@@ -1,0 +1,25 @@
+#pragma once
+#include "compiler/geometry/isometry.h"
+#include "compiler/scene/scene.h"
+
+namespace orbc::place {
+
+/// The eye and its camera. Eye coordinates: the log map at the eye with axes x, y of the translated room frame, z up, origin on the floor
+/// below the eye; the eye is at (0, 0, z). Straight rays from there are the geodesics from the eye. Source: design §2.
+struct Eye {
+  geometry::Isometry room_from_eye;
+  double z = 0;
+  geometry::Vector3 forward{1, 0, 0}, right{0, -1, 0}, up{0, 0, 1};  ///< orthonormal, right = forward × up
+  scene::Projection projection = scene::Projection::perspective;
+  Angle fov = Angle::from_degrees(75);    ///< horizontal
+  int width = 800, height = 600;
+};
+
+/// Direction in eye coordinates through the picture at (x, y) pixels, (0, 0) the upper left corner, pixel centres at +0.5. Unit length.
+/// perspective: F + (2x/W − 1)·tan(fov/2)·R + (1 − 2y/H)·(H/W)·tan(fov/2)·U.
+/// panorama: azimuth 2π(x/W − ½) to the right of F, elevation π(½ − y/H).  cylinder: azimuth fov·(x/W − ½), height (1 − 2y/H)·(H/W)·fov/2 (square pixels at the horizon).
+[[nodiscard]] geometry::Vector3 direction_through(const Eye& eye, double x, double y);
+/// Pixels per radian at the centre of the picture.
+[[nodiscard]] double pixels_per_radian(const Eye& eye);
+
+}  // namespace orbc::place

@@ -1,0 +1,53 @@
+#pragma once
+#include <vector>
+
+#include "compiler/geometry/isometry.h"
+#include "compiler/geometry/line.h"
+#include "compiler/geometry/point.h"
+#include "compiler/notation/orbifold.h"
+
+namespace orbc::room {
+
+struct Corner {
+  geometry::Point at;
+  double angle = 0;                 ///< interior angle in radians, π/k
+};
+
+/// Wall i joins corner i to corner i+1 (of `*`: the whole equator; of `**`: see `mirrors`). Inside is to the left of `line`.
+struct Wall {
+  geometry::Line line;
+  geometry::Point start;            ///< arc length 0 of the wall
+  geometry::Tangent along;          ///< direction of the wall at `start`
+  double length = 0;
+  bool reflects = true;             ///< belongs to the reflection group; only the plain end walls of `**` do not
+};
+
+/// What is known for sure of a realised room: measured residuals with bounds, exact signs.
+struct Certificate {
+  bool convex = false;              ///< exact signs of the stored ambient vectors
+  double angle_residual = 0;        ///< upper bound of |angle − π/k| over all corners, by interval arithmetic
+  double closure_residual = 0;      ///< upper bound of the distance of a stored corner from the lines of its walls
+  double area_residual = 0;         ///< |area by Gauss–Bonnet of χ − area of the stored polygon|
+};
+
+/// The floor of the mirror room, realised. Centre at the origin (incentre if it has one, else the normalised mean of the corners), corner 1 in
+/// the direction of +x, corners counter-clockwise. Lengths in curvature radii (E²: scene units).
+struct Room {
+  geometry::Space space = geometry::Space::euclidean;
+  notation::Orbifold orbifold;
+  std::vector<Corner> corners;      ///< `*`: none
+  std::vector<Wall> walls;
+  std::vector<geometry::Point> outline;  ///< the border for exact predicates: corners and, on long walls, points between; neighbours never antipodal
+  std::vector<int> outline_wall;    ///< outline[i] → outline[i+1] lies in wall outline_wall[i] (from 0)
+  double inradius = 0;              ///< 0 when there is no inscribed circle
+  double circumradius = 0;          ///< largest distance of a point of the room from the origin
+  double area = 0;
+  Certificate certificate;
+};
+
+/// The point of wall `wall` (from 0) at arc length s from its start.
+[[nodiscard]] geometry::Point point_on_wall(const Room& room, int wall, double s);
+/// The mirror image in wall `wall` (from 0).
+[[nodiscard]] geometry::Isometry reflection_in_wall(const Room& room, int wall);
+
+}  // namespace orbc::room

@@ -1,0 +1,193 @@
+#pragma once
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "compiler/base/angle.h"
+#include "compiler/base/source_span.h"
+#include "compiler/notation/orbifold.h"
+#include "compiler/scene/color.h"
+
+namespace orbc::scene {
+
+/// A value and the place in the file where the author wrote it (no source for defaults).
+template <class T>
+struct Sourced {
+  T value{};
+  SourceSpan span;
+};
+
+// ---- the room -------------------------------------------------------------------------------------------------------------
+
+/// A common perpendicular of two walls (numbered from 1) that cuts the polygon, and its length in curvature radii.
+struct Cut {
+  std::array<int, 2> walls{};
+  double length = 1.4;
+};
+
+enum class ShapeKind { tangential, paper, lengths };
+
+/// How the free side lengths of the polygon are chosen (design §4).
+struct Shape {
+  ShapeKind kind = ShapeKind::tangential;
+  double cut = 1.4;                 ///< `paper`: length of every cut that `cuts` does not name
+  std::vector<Cut> cuts;            ///< `paper`: another decomposition; empty = the paper's forward reading
+  std::map<int, double> lengths;    ///< `lengths`: wall number → side length, N−3 of them (N for none free: 0)
+  double scale = 1;                 ///< E² only: inradius (tangential); of `**` half the distance of the mirrors
+  double aspect = 1;                ///< `*2222` only: side 1 / side 2
+  double strip_length = 4;          ///< `**` only: distance of the plain end walls, in units of `scale`
+  SourceSpan span;
+};
+
+// ---- what surfaces are made of ----------------------------------------------------------------------------------------------
+
+enum class MaterialKind { matte, glossy, metal, mirror, glass, emissive };
+enum class Pattern { plain, checker, marble, wood, granite, texture };
+
+/// What a surface looks like. Colours are linear reflectances; `texture` is a path as written, relative to the scene file.
+struct Material {
+  MaterialKind kind = MaterialKind::matte;
+  Pattern pattern = Pattern::plain;
+  Color color{0.8, 0.8, 0.8};
+  Color second{0.2, 0.2, 0.2};      ///< the other colour of a pattern
+  double cell = 0.25;               ///< size of a pattern's cell, intrinsic length
+  double roughness = 0.3;           ///< glossy and metal, 0…1
+  double index = 1.5;               ///< refractive index of glass
+  double emission = 1;              ///< emissive: radiance = emission × color
+  Sourced<std::string> texture;
+  SourceSpan span;
+};
+
+/// A geodesic beam around a mirror: a box of square section `width`, half of it over the mirror, half over the wall.
+struct Frame {
+  double width = 0.03;
+  Material material;
+};
+
+/// A mirror: a rectangle on its wall, `span` along the wall from corner i and `height` above the floor; missing = all of it.
+struct Mirror {
+  std::optional<std::array<double, 2>> span;
+  std::optional<std::array<double, 2>> height;
+  double reflectance = 0.9;         ///< = 1 − attenuation, 0…1
+  Color tint{1, 1, 1};
+  std::optional<Frame> frame;
+  SourceSpan source;
+};
+
+/// A wall: what is not covered by mirrors is plain. No mirrors = a plain wall.
+struct Wall {
+  Material material;
+  std::vector<Mirror> mirrors;
+  SourceSpan span;
+};
+
+/// Floor or ceiling: a material, or a mirror.
+struct Surface {
+  Material material;
+  std::optional<Mirror> mirror;
+  SourceSpan span;
+};
+
+struct RoomSpec {
+  Shape shape;
+  double height = 1;
+  Surface floor, ceiling;
+  std::vector<Wall> walls;          ///< one for each wall, in order; `all` and the single entries are merged by the reader
+  SourceSpan span;
+};
+
+// ---- places ------------------------------------------------------------------------------------------------------------------
+
+/// Where something stands on the floor, in the coordinates of the room (centre at the origin, corner 1 towards +x).
+struct AtCentre {};
+struct AtDisk { std::complex<double> z; };                       ///< disk chart
+struct AtPolar { double r = 0; Angle angle; };                   ///< intrinsic distance and direction from the centre
+struct AtToward { bool corner = true; int number = 1; double distance = 0; };  ///< `distance` from the centre towards corner or the middle of wall `number`
+struct AtWalls { std::array<int, 2> walls{}; std::array<double, 2> distances{}; };  ///< given distances from two walls
+struct Place {
+  std::variant<AtCentre, AtDisk, AtPolar, AtToward, AtWalls> floor;
+  std::optional<double> z;          ///< height; what is missing is decided by what is placed (objects stand on the floor)
+  SourceSpan span;
+};
+
+// ---- objects -----------------------------------------------------------------------------------------------------------------
+
+struct MeshFile { Sourced<std::string> path; };                  ///< as written, relative to the scene file
+struct SphereSpec { double radius = 0.1; };
+struct CylinderSpec { double radius = 0.1, height = 0.3; };
+struct BoxSpec { std::array<double, 3> size{0.2, 0.2, 0.2}; };
+struct TorusSpec { double radius = 0.15, tube = 0.05; };
+struct TorusKnotSpec { int p = 2, q = 3; double radius = 0.15, tube = 0.04; };
+struct BeamSpec { Place from, to; double width = 0.03; };        ///< a geodesic beam between two positions of the room
+
+enum class Embedding { conformal, exponential };
+
+struct Object {
+  std::string name;                 ///< given, or the mesh's file name without ending, or the primitive's name; made unique by "-2"
+  std::variant<MeshFile, SphereSpec, CylinderSpec, BoxSpec, TorusSpec, TorusKnotSpec, BeamSpec> shape;
+  std::optional<double> size;       ///< longest horizontal extent, intrinsic length; missing = the file's own units
+  Embedding embedding = Embedding::conformal;
+  char up = 'z';                    ///< which axis of the mesh file points up: 'y' or 'z' (glTF: y)
+  Place place;
+  Angle turn;
+  std::optional<Material> material; ///< missing: the file's own (glTF), else matte grey
+  SourceSpan span;
+};
+
+// ---- light, eye, cover -------------------------------------------------------------------------------------------------------
+
+enum class LampKind { point, sphere, rectangle, disk, tube, spot };
+enum class Falloff { geodesic, inverse_square, none };
+struct Lamp {
+  LampKind kind = LampKind::sphere;
+  Place place;
+  std::optional<Place> to;          ///< tube: the other end; spot, rectangle, disk: what it faces (default: the floor)
+  double radius = 0.05;             ///< sphere, disk, tube
+  std::array<double, 2> size{0.2, 0.2};  ///< rectangle
+  double power = 10;                ///< radiant power of all directions together, in units in which E² irradiance is Φ/(4πr²)
+  Color color{1, 1, 1};
+  Angle cone = Angle::from_degrees(60);
+  bool visible = true;
+  Falloff falloff = Falloff::geodesic;
+  SourceSpan span;
+};
+
+enum class Projection { perspective, panorama, cylinder };
+struct LookAtObject { std::string name; };
+struct LookDirection { Angle azimuth, elevation; };              ///< azimuth from the +x direction of the eye's frame, counter-clockwise
+struct Camera {
+  Place place;                      ///< default z: half the height
+  Sourced<std::variant<LookAtObject, Place, LookDirection>> look_at;  ///< default: the centre of the room at the eye's height
+  Projection projection = Projection::perspective;
+  Angle fov = Angle::from_degrees(75);  ///< horizontal field of view; panorama: always 360° × 180°
+  std::array<int, 2> size{800, 600};
+  SourceSpan span;
+};
+
+struct CoverSpec {
+  int max_bounces = 12;
+  double min_weight = 0;            ///< paths whose weight (largest channel) is below it end
+  double min_pixels = 0;            ///< exports only: copies smaller than this in the picture are left out
+  Color background{0, 0, 0};        ///< what is seen where a path ends at a mirror
+};
+
+struct Scene {
+  notation::Orbifold orbifold;
+  bool allow_non_orbifold = false;
+  RoomSpec room;
+  std::vector<Object> objects;
+  std::vector<Lamp> lamps;
+  Color ambient{0, 0, 0};           ///< light from everywhere; a scene without lamps is shown in its plain colours
+  double exposure = 1;
+  Camera camera;
+  CoverSpec cover;
+  std::string folder;               ///< of the scene file; paths of meshes and textures are relative to it
+  SourceSpan span;
+};
+
+}  // namespace orbc::scene
