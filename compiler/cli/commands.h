@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace orbc::cli {
+
+/// What every command understands.
+struct Common {
+  bool quiet = false;               ///< neither progress nor summary
+  bool verbose = false;
+  bool json = false;                ///< the result as JSON on standard output
+  int threads = 0;                  ///< 0 = all cores
+};
+
+struct InfoArguments {
+  std::string notation;
+  int max_length = 12;
+  std::string shape = "tangential";
+  double cut = 1.4;
+  bool allow_non_orbifold = false;
+};
+struct EnumerateArguments {
+  int corners = 3;
+  int max_order = 8;
+  std::string space;                ///< only these; empty = all
+};
+struct NewArguments {
+  std::string notation = "*22222";
+};
+struct CheckArguments {
+  std::vector<std::string> scenes;
+};
+
+/// What changes a scene from the command line: shared by compile, render, trace and verify.
+struct SceneArguments {
+  std::string scene;
+  std::string size;                 ///< "800x600"; empty = the scene's
+  std::optional<int> max_bounces;
+  std::string projection;           ///< empty = the scene's
+};
+struct CompileArguments {
+  SceneArguments scene;
+  std::string output;
+  std::string format;               ///< empty = by the ending of `output`
+  std::string view = "eye";
+  double tolerance = 0.25;
+  std::uint64_t max_triangles = 200'000'000;
+  std::string max_memory = "4GiB";
+  std::string report;               ///< a file for the report as JSON; "-" = standard output
+  bool nodes_per_copy = false;
+  std::string model = "disk";       ///< svg: disk, klein, plane
+  std::string colour = "parity";    ///< svg: parity, length
+  bool plan = false;                ///< only say what it would take
+};
+struct RenderArguments {
+  CompileArguments compile;
+  std::string engine = "tracer";
+  int samples = 1;
+};
+
+/// Each command returns the exit code: 0 done, 1 the scene is wrong, 2 usage, 3 the machine.
+int info(const InfoArguments& arguments, const Common& common);
+int enumerate(const EnumerateArguments& arguments, const Common& common);
+int new_scene(const NewArguments& arguments, const Common& common);
+int check(const CheckArguments& arguments, const Common& common);
+int compile(const CompileArguments& arguments, const Common& common);
+int render(const RenderArguments& arguments, const Common& common);
+
+/// Parses the command line and runs the command.
+int run(int argc, char** argv);
+
+}  // namespace orbc::cli
