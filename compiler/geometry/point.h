@@ -16,13 +16,13 @@ struct Ambient {
 /// A point of the floor: an ambient vector with w² + κ(x² + y²) = 1 (unit sphere | plane w = 1 | upper sheet).
 struct Point : Ambient {
   constexpr Point() : Ambient{1, 0, 0} {}
-  constexpr Point(double w, double x, double y) : Ambient{w, x, y} {}
+  constexpr Point(double w_, double x_, double y_) : Ambient{w_, x_, y_} {}
 };
 
 /// A unit tangent of the floor at some point P: V_w² + κ… orthogonal to P, x² + y² + κ w² = 1.
 struct Tangent : Ambient {
   constexpr Tangent() : Ambient{0, 1, 0} {}
-  constexpr Tangent(double w, double x, double y) : Ambient{w, x, y} {}
+  constexpr Tangent(double w_, double x_, double y_) : Ambient{w_, x_, y_} {}
 };
 
 /// A point of the room: where on the floor, and how high above it.
