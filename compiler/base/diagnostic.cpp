@@ -14,7 +14,8 @@ Diagnostic make(Severity severity, std::string code, std::string message, std::s
   return {severity, std::move(code), std::move(span), std::move(message), std::move(hint)};
 }
 
-// The length of the well-formed UTF-8 sequence at `at`, or 0.
+// The length of the well-formed UTF-8 sequence at `at`, or 0. Well-formed as in Table 3-7 of the Unicode Standard: no overlong
+// forms, no surrogates, nothing above U+10FFFF; C1 controls (C2 80 … C2 9F) are turned away too, terminals obey them.
 std::size_t sequence_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(at);
@@ -22,7 +23,10 @@ std::size_t sequence_length(std::string_view text, std::size_t at) {
   if (length == 0 || at + length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(at + i) & 0xC0) != 0x80) return 0;
-  return length;
+  if (length == 1) return 1;
+  const unsigned char second = byte(at + 1);
+  const unsigned char low = lead == 0xC2 || lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80, high = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+  return second < low || second > high ? 0 : length;
 }
 
 std::vector<std::string> shown_characters(std::string_view line) {
@@ -36,6 +40,18 @@ std::vector<std::string> shown_characters(std::string_view line) {
     at += std::max<std::size_t>(length, 1);
   }
   return shown;
+}
+
+// Text that quotes the author, made safe for a terminal; line breaks stay.
+std::string shown_text(std::string_view text) {
+  std::string shown;
+  for (std::size_t begin = 0;; ++begin) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    for (const std::string& character : shown_characters(text.substr(begin, end - begin))) shown += character;
+    if (end == text.size()) return shown;
+    shown += '\n';
+    begin = end;
+  }
 }
 
 std::string_view line_of(std::string_view text, std::size_t line) {
@@ -54,7 +70,7 @@ std::string_view line_of(std::string_view text, std::size_t line) {
 std::string quoted_line(const SourceSpan& span) {
   // One character a column; the window keeps the caret in sight on machine-written lines.
   const std::vector<std::string> characters = shown_characters(line_of(span.source->text, span.line).substr(0, 100000));
-  const std::size_t column = std::min(span.column, characters.size() + 1);
+  const std::size_t column = std::clamp<std::size_t>(span.column, 1, characters.size() + 1);
   const std::size_t first = column > kShownColumns ? column - kShownColumns / 2 : 1;
   const std::size_t last = std::min(characters.size(), first + kShownColumns - 1);
   const std::string number = fmt::format("{:>4}", span.line);
@@ -99,11 +115,11 @@ std::string to_text(const Diagnostic& diagnostic) {
   static constexpr const char* kNames[] = {"note", "warning", "error"};
   const SourceSpan& span = diagnostic.span;
   std::string text;
-  if (span.source && span.line > 0) text += fmt::format("{}:{}:{}: ", span.source->name, span.line, span.column);
-  else if (span.source) text += span.source->name + ": ";
-  text += fmt::format("{}[{}] {}\n", kNames[static_cast<int>(diagnostic.severity)], diagnostic.code, diagnostic.message);
+  if (span.source && span.line > 0) text += fmt::format("{}:{}:{}: ", shown_text(span.source->name), span.line, span.column);
+  else if (span.source) text += shown_text(span.source->name) + ": ";
+  text += fmt::format("{}[{}] {}\n", kNames[static_cast<int>(diagnostic.severity)], diagnostic.code, shown_text(diagnostic.message));
   if (span.source && span.line > 0) text += quoted_line(span);
-  if (!diagnostic.hint.empty()) text += "  hint: " + diagnostic.hint + "\n";
+  if (!diagnostic.hint.empty()) text += "  hint: " + shown_text(diagnostic.hint) + "\n";
   return text;
 }
 
@@ -127,9 +143,9 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     }
     return previous[b.size()];
   };
-  if (word.size() > 64) return {};
+  if (word.size() < 2 || word.size() > 64) return {};
   std::string best;
-  std::size_t best_distance = word.size() / 3 + 2;
+  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
     const std::size_t d = distance(word, candidate);
     if (d < best_distance) best = candidate, best_distance = d;

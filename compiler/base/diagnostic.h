@@ -30,11 +30,12 @@ using Diagnostics = std::vector<Diagnostic>;
 [[nodiscard]] Diagnostics located(Diagnostics diagnostics, const SourceSpan& span);
 
 /// The text a terminal shows: `file:line:column: error[code] message`, the line itself, a caret below it, the hint.
-/// Long lines are cut around the caret; control bytes and bytes that are not UTF-8 are shown as `\xNN`.
+/// Long lines are cut around the caret; control bytes and bytes that are not UTF-8 are shown as `\xNN`,
+/// in the quoted line as in message and hint, which may quote the author too.
 [[nodiscard]] std::string to_text(const Diagnostic& diagnostic);
 [[nodiscard]] std::string to_text(const Diagnostics& diagnostics);
 
-/// The known word nearest to `word` (edit distance with transpositions, at most a third of its length), or "".
+/// The known word nearest to `word` (edit distance with transpositions, at most a third of its length and at least one), or "".
 [[nodiscard]] std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace orbc

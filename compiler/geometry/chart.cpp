@@ -6,6 +6,11 @@ namespace orbc::geometry {
 
 std::complex<double> disk_from_point(Space space, const Point& p) {
   if (space == Space::euclidean) return {p.x, p.y};
+  if (p.w < 0) {
+    // Near the antipode 1 + w has lost its digits, (1 − w)/ρ² has not.
+    const double s = (1 - p.w) / (p.x * p.x + p.y * p.y);
+    return {p.x * s, p.y * s};
+  }
   return {p.x / (1 + p.w), p.y / (1 + p.w)};
 }
 

@@ -74,7 +74,7 @@ Isometry renormalised(const Isometry& m) {
 Point operator*(const Isometry& m, const Point& p) {
   const Ambient v = apply(m, p);
   if (m.space == Space::hyperbolic) return {std::sqrt(1 + v.x * v.x + v.y * v.y), v.x, v.y};
-  return {v.w, v.x, v.y};
+  return {m.space == Space::euclidean ? 1 : v.w, v.x, v.y};
 }
 
 Tangent operator*(const Isometry& m, const Tangent& t) {

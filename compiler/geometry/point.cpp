@@ -48,9 +48,12 @@ double distance(Space space, const Point& p, const Point& q) {
     const double cw = p.x * q.y - p.y * q.x, cx = p.y * q.w - p.w * q.y, cy = p.w * q.x - p.x * q.w;
     return std::atan2(std::sqrt(cw * cw + cx * cx + cy * cy), p.w * q.w + p.x * q.x + p.y * q.y);
   }
-  // sinh²(d/2) = |P−Q|²/4; the w difference from ρ² differences, since w alone has lost the small ones.
+  // sinh²(d/2) = |P−Q|²/4 = (cosh d − 1)/2. The first is right for neighbours far out (the w difference from ρ² differences, since w
+  // alone has lost the small ones), the second for points far apart; each is taken where its largest term is the smaller one.
+  const double chord2 = dx * dx + dy * dy, ww = p.w * q.w;
+  if (chord2 > 2 * ww) return 2 * std::asinh(std::sqrt(std::fmax(0, (ww - 1) - (p.x * q.x + p.y * q.y)) / 2));
   const double dw = (dx * (p.x + q.x) + dy * (p.y + q.y)) / (p.w + q.w);
-  return 2 * std::asinh(std::sqrt(std::fmax(0, dx * dx + dy * dy - dw * dw)) / 2);
+  return 2 * std::asinh(std::sqrt(std::fmax(0, chord2 - dw * dw)) / 2);
 }
 
 Point point_along(Space space, const Point& p, const Tangent& v, double s) {

@@ -19,7 +19,7 @@ enum class Containment { outside = -1, on_border = 0, inside = 1 };
 
 /// Whether the outline is a strictly convex, counter-clockwise, simple polygon; points between corners may lie on the line of their
 /// neighbours. Exact for the stored doubles.
-/// In: at least three points, not all on one line (a hemisphere's border is one).
+/// In: at least three points, all distinct, not all on one line (a hemisphere's border is one).
 [[nodiscard]] bool is_convex(const std::vector<Point>& outline);
 
 }  // namespace orbc::geometry
