@@ -1,0 +1,59 @@
+// The first thing on a ray: triangles through the BVH, the prism's border by formula.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/trace/bvh.h"
+#include "compiler/trace/scene.h"
+
+namespace orbc::trace {
+namespace {
+
+Hit hit_of_triangle(const Soup& soup, const BvhHit& found) {
+  const auto next = std::upper_bound(soup.parts.begin(), soup.parts.end(), found.triangle,
+                                     [](std::uint32_t triangle, const Soup::Part& part) { return triangle < part.first; });
+  const Soup::Part& part = *(next - 1);
+  Hit hit;
+  hit.target = Target::triangle;
+  hit.t = found.t;
+  hit.part = part.part;
+  hit.triangle = static_cast<int>(found.triangle - part.first);
+  std::copy(found.b, found.b + 3, hit.b);
+  return hit;
+}
+
+Hit hit_of_exit(const Exit& exit) {
+  Hit hit;
+  hit.target = exit.surface >= 0 ? Target::wall : exit.surface == kFloor ? Target::floor : Target::ceiling;
+  hit.t = exit.t;
+  hit.wall = exit.surface >= 0 ? exit.surface : -1;
+  return hit;
+}
+
+/// A ray in a room of S² is out after half a turn: no triangle needs to be looked for beyond.
+double longest_in_room(const TraceScene& scene, const Ray& ray) {
+  return scene.prism.space == geometry::Space::spherical && ray.c > 0 ? std::numbers::pi / ray.c : kEndless;
+}
+
+}  // namespace
+
+Hit closest(const TraceScene& scene, const Ray& ray) {
+  if (scene.all_inside) {
+    const BvhHit found = scene.objects->closest(ray, longest_in_room(scene, ray));
+    return found.triangle != ~0u ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit_of(scene.prism, ray));
+  }
+  const Exit exit = exit_of(scene.prism, ray);
+  const BvhHit found = scene.objects->closest(ray, exit.t);
+  return found.triangle != ~0u ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit);
+}
+
+Hit closest_triangle(const TraceScene& scene, const Ray& ray, double max_length) {
+  const BvhHit found = scene.objects->closest(ray, std::min(max_length, longest_in_room(scene, ray)));
+  return found.triangle != ~0u ? hit_of_triangle(scene.objects->soup(), found) : Hit{};
+}
+
+bool occluded(const TraceScene& scene, const Ray& ray, double max_length) {
+  return closest_triangle(scene, ray, max_length).target == Target::triangle;
+}
+
+}  // namespace orbc::trace

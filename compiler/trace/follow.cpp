@@ -1,0 +1,63 @@
+// Road B of the design: the mirrors are real, the ray is turned back at each wall, nothing is unfolded. Cut-offs: design §6.
+#include "compiler/trace/follow.h"
+
+#include <algorithm>
+
+namespace orbc::trace {
+namespace {
+
+const MirrorArea* mirror_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
+  if (hit.target == Target::floor) return scene.floor_mirror ? &*scene.floor_mirror : nullptr;
+  if (hit.target == Target::ceiling) return scene.ceiling_mirror ? &*scene.ceiling_mirror : nullptr;
+  if (hit.target != Target::wall) return nullptr;
+  const auto& areas = scene.mirrors[hit.wall];
+  if (areas.empty()) return nullptr;
+  const auto at = position_at(scene.prism.space, ray, hit.t);
+  const double s = arc_on_wall(scene.prism.space, scene.prism.walls[hit.wall], at.floor);
+  for (const MirrorArea& area : areas)
+    if (s >= area.span[0] && s <= area.span[1] && at.z >= area.height[0] && at.z <= area.height[1]) return &area;
+  return nullptr;
+}
+
+double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
+
+}  // namespace
+
+Path follow(const TraceScene& scene, Ray ray, const FollowOptions& options) {
+  Path path;
+  path.length = options.length;
+  path.bounces = options.bounces;
+  path.weight = options.weight;
+  for (;;) {
+    path.hit = closest(scene, ray);
+    if (path.length + path.hit.t > options.max_length) {
+      path.hit = {};
+      path.hit.t = options.max_length - path.length;
+    }
+    path.length += path.hit.t;
+    path.last = ray;
+    const MirrorArea* mirror = mirror_at(scene, ray, path.hit);
+    if (!mirror) return path;
+    const scene::Color weight = path.weight * mirror->weight;
+    if (path.bounces >= options.max_bounces || largest(weight) < options.min_weight) {
+      path.cut_off = true;
+      return path;
+    }
+    path.weight = weight;
+    ++path.bounces;
+    const int surface = path.hit.target == Target::wall ? path.hit.wall : path.hit.target == Target::floor ? kFloor : kCeiling;
+    if (options.record_word) path.word.push_back(static_cast<std::int16_t>(surface));
+    ray = surface >= 0 ? reflected_in_wall(scene.prism, ray, path.hit.t, surface)
+                       : reflected_in_plane(scene.prism, ray, path.hit.t, surface);
+  }
+}
+
+Ray leave(const TraceScene& scene, const SurfacePoint& from, const Direction& direction) {
+  Ray ray = ray_from(scene.prism.space, from.at, direction);
+  ray.leaves_wall = from.kind == place::PartKind::wall ? from.wall : -1;
+  const bool triangle = from.kind == place::PartKind::object || from.kind == place::PartKind::frame;
+  ray.t_min = triangle ? kLeave : 0;
+  return ray;
+}
+
+}  // namespace orbc::trace

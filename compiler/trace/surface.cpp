@@ -1,0 +1,104 @@
+// What is seen where a path ends. The plain walls, floor and ceiling are answered by rule, not from panel triangles: checkers are exact
+// geometry (cells between geodesics of the axial chart; on walls between arc lengths and heights), so no panel's tessellation shows.
+#include <cmath>
+
+#include "compiler/geometry/chart.h"
+#include "compiler/trace/follow.h"
+
+namespace orbc::trace {
+
+using geometry::Ambient;
+using geometry::Point;
+using geometry::Space;
+using place::PartKind;
+
+namespace {
+
+Direction unit(Space space, const Direction& d) { return (1 / std::sqrt(inner(space, d, d))) * d; }
+
+/// The normal of a geodesic triangle at the point b, towards its counter-clockwise side: orthogonal to both ∂/∂b directions, which are
+/// the tangents (E − ⟨E, X⟩X)/|S| with heights z, for the edges E of the triangle and S = Σ bᵢXᵢ = |S|·X.
+Direction triangle_normal(Space space, const place::PlacedMesh& mesh, const mesh::Triangle& triangle, const double b[3], const Point& at) {
+  const double k = geometry::curvature(space);
+  const Point& p0 = mesh.floor[triangle[0]];
+  const Point& p1 = mesh.floor[triangle[1]];
+  const Point& p2 = mesh.floor[triangle[2]];
+  const Ambient sum = b[0] * p0 + b[1] * p1 + b[2] * p2;
+  const double size = space == Space::euclidean ? 1 : std::sqrt(std::fabs(sum.w * sum.w + k * (sum.x * sum.x + sum.y * sum.y)));
+  // An orthonormal frame (e1, e2) of the floor at X, right-handed with z up.
+  const geometry::Tangent e1 = geometry::normalised_tangent(space, at, std::fabs(at.x) <= std::fabs(at.y) ? Ambient{0, 1, 0} : Ambient{0, 0, 1});
+  const Ambient left = {at.x * e1.y - at.y * e1.x, at.y * e1.w - at.w * e1.y, at.w * e1.x - at.x * e1.w};
+  const Ambient e2 = {k * left.w, left.x, left.y};
+  const auto edge = [&](const Point& to, double dz) {
+    const Ambient e = to - p0;
+    const auto component = [&](const Ambient& f) { return (k * f.w * e.w + f.x * e.x + f.y * e.y) / size; };
+    return geometry::Vector3{component(e1), component(e2), dz};
+  };
+  const double z0 = mesh.z[triangle[0]];
+  const auto n = cross(edge(p1, mesh.z[triangle[1]] - z0), edge(p2, mesh.z[triangle[2]] - z0));
+  return {n.x * Ambient(e1) + n.y * e2, n.z};
+}
+
+void fill_triangle(const TraceScene& scene, const Hit& hit, SurfacePoint& point) {
+  const Space space = scene.prism.space;
+  const place::PlacedMesh& mesh = scene.room->parts[hit.part];
+  const mesh::Triangle& triangle = mesh.triangles[hit.triangle];
+  point.kind = mesh.kind;
+  point.part = hit.part;
+  point.wall = mesh.wall;
+  point.look = mesh.look.empty() ? -1 : mesh.look[hit.triangle];
+  if (point.look >= 0) point.color = scene.room->looks[point.look].color;
+  const Direction normal = unit(space, triangle_normal(space, mesh, triangle, hit.b, point.at.floor));
+  point.outside = inner(space, normal, point.arriving) <= 0;
+  point.normal = point.outside ? normal : -normal;
+  for (int i = 0; i < 3; ++i) {
+    if (!mesh.uv.empty())
+      for (int j = 0; j < 2; ++j) point.uv[j] += hit.b[i] * mesh.uv[triangle[i]][j];
+    if (!mesh.pattern_position.empty()) point.pattern_position = point.pattern_position + hit.b[i] * mesh.pattern_position[triangle[i]];
+  }
+}
+
+/// Looks up the panel's look and which cell of its checker holds uv (decided like the panels are cut: parity of the cell's numbers).
+void fill_panel(const TraceScene& scene, const Panel& panel, SurfacePoint& point) {
+  point.part = panel.part;
+  point.look = panel.look;
+  if (panel.look < 0) return;
+  const place::Look& look = scene.room->looks[panel.look];
+  point.color = look.color;
+  if (look.material.pattern != scene::Pattern::checker) return;
+  const double cells = std::floor(point.uv[0] / look.material.cell) + std::floor(point.uv[1] / look.material.cell);
+  point.checker_second = std::fmod(cells, 2) != 0;
+  point.color = point.checker_second ? look.material.second : look.material.color;
+}
+
+}  // namespace
+
+SurfacePoint surface_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
+  const Space space = scene.prism.space;
+  SurfacePoint point;
+  point.at = position_at(space, ray, hit.t);
+  point.arriving = direction_at(space, ray, hit.t);
+  if (hit.target == Target::triangle) {
+    fill_triangle(scene, hit, point);
+  } else if (hit.target == Target::wall) {
+    const room::Wall& wall = scene.prism.walls[hit.wall];
+    point.kind = PartKind::wall;
+    point.wall = hit.wall;
+    point.normal = normal_of_wall(space, wall);
+    point.uv[0] = arc_on_wall(space, wall, point.at.floor);
+    point.uv[1] = point.at.z;
+    fill_panel(scene, scene.walls[hit.wall], point);
+  } else if (hit.target == Target::floor || hit.target == Target::ceiling) {
+    const bool floor = hit.target == Target::floor;
+    point.kind = floor ? PartKind::floor : PartKind::ceiling;
+    point.at.z = floor ? 0 : scene.prism.height;
+    point.normal = {{0, 0, 0}, floor ? 1.0 : -1.0};
+    const auto uv = geometry::axial_from_point(space, point.at.floor);
+    point.uv[0] = uv.real();
+    point.uv[1] = uv.imag();
+    fill_panel(scene, floor ? scene.floor : scene.ceiling, point);
+  }
+  return point;
+}
+
+}  // namespace orbc::trace
