@@ -28,7 +28,7 @@ class MinimalRoots {
   [[nodiscard]] int walls() const { return walls_; }
   /// The image of a minimal root under the reflection in `wall`.
   [[nodiscard]] Root image(int wall, Root root) const;
-  /// The number of mirrors' angle π/k between two walls; 0 when they do not meet (k = ∞).
+  /// The k of the angle π/k between two walls; 0 when they do not meet (k = ∞).
   [[nodiscard]] int order(int wall, int other) const;
   /// How many minimal roots there are.
   [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(first_triple_) + static_cast<std::int64_t>(triples_.size()); }
@@ -40,14 +40,16 @@ class MinimalRoots {
     Root offset = 0;  // number of position 1
   };
   struct Triple {
-    std::array<double, 3> coefficients{};
-    double error = 0;
+    std::array<long double, 3> coefficients{};
+    long double error = 0;
     int depth = 0;
     std::array<Root, 3> images{kNotMinimal, kNotMinimal, kNotMinimal};
   };
   class TripleFinder;
 
+  void find_triples();
   [[nodiscard]] int corner_between(int wall, int other) const;
+  [[nodiscard]] bool keeps(int wall, const Corner& corner) const;  // at right angles to both walls of the corner
   [[nodiscard]] int corner_of(Root root) const;
   [[nodiscard]] Root root_at(int corner, int position) const;
   [[nodiscard]] Root turned(int corner, int wall, int position) const;
