@@ -1,4 +1,8 @@
 #pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace orbc::scene {
 
@@ -9,9 +13,25 @@ struct Color {
 [[nodiscard]] constexpr Color operator*(const Color& a, const Color& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
 [[nodiscard]] constexpr Color operator*(double s, const Color& c) { return {s * c.r, s * c.g, s * c.b}; }
 [[nodiscard]] constexpr Color operator+(const Color& a, const Color& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+[[nodiscard]] constexpr bool operator==(const Color& a, const Color& b) { return a.r == b.r && a.g == b.g && a.b == b.b; }
 
 /// IEC 61966-2-1 transfer function, one channel, both ways; values outside [0, 1] are clamped by `encode_srgb` only.
 [[nodiscard]] double decode_srgb(double encoded);
 [[nodiscard]] double encode_srgb(double linear);
+
+/// The colour of three sRGB-encoded channels, 0…1.
+[[nodiscard]] Color from_srgb(double r, double g, double b);
+/// The colour of 0xRRGGBB, sRGB-encoded.
+[[nodiscard]] Color from_hex(unsigned rrggbb);
+
+/// The 148 names of CSS Color Module Level 4 ("coral", "rebeccapurple"; lower case), in alphabetical order.
+[[nodiscard]] const std::vector<std::string>& color_names();
+[[nodiscard]] std::optional<Color> named_color(std::string_view name);
+/// A name, "#rgb" or "#rrggbb".
+[[nodiscard]] std::optional<Color> parse_color(std::string_view text);
+
+/// The colour of a black body, its largest channel 1; `kelvin` in 1667…25000.
+/// Source: Kim et al., "Design of advanced color temperature control system for HDTV applications" (2002): cubic fits of the Planckian locus.
+[[nodiscard]] Color color_of_temperature(double kelvin);
 
 }  // namespace orbc::scene

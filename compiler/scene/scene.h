@@ -129,8 +129,10 @@ enum class Embedding { conformal, exponential };
 
 struct Object {
   std::string name;                 ///< given, or the mesh's file name without ending, or the primitive's name; made unique by "-2"
+  SourceSpan name_span;             ///< where the name was written; no source when it was not
   std::variant<MeshFile, SphereSpec, CylinderSpec, BoxSpec, TorusSpec, TorusKnotSpec, BeamSpec> shape;
   std::optional<double> size;       ///< longest horizontal extent, intrinsic length; missing = the file's own units
+  SourceSpan size_span;
   Embedding embedding = Embedding::conformal;
   char up = 'z';                    ///< which axis of the mesh file points up: 'y' or 'z' (glTF: y)
   Place place;
@@ -166,6 +168,7 @@ struct Camera {
   Projection projection = Projection::perspective;
   Angle fov = Angle::from_degrees(75);  ///< horizontal field of view; panorama: always 360° × 180°
   std::array<int, 2> size{800, 600};
+  SourceSpan size_span, fov_span;
   SourceSpan span;
 };
 
@@ -178,6 +181,7 @@ struct CoverSpec {
 
 struct Scene {
   notation::Orbifold orbifold;
+  SourceSpan orbifold_span;         ///< where the notation was written
   bool allow_non_orbifold = false;
   RoomSpec room;
   std::vector<Object> objects;

@@ -1,0 +1,22 @@
+#pragma once
+#include "compiler/scene/scene.h"
+
+namespace orbc::scene {
+
+/// How many walls the room of a notation has: `*` 1, `*kk` 2, `*k1…kN` N; `**` 4 (1 and 3 mirrors, 2 and 4 plain ends).
+[[nodiscard]] int wall_count(const notation::Orbifold& orbifold);
+/// How many corners: as many as the notation has; `**` 4, where mirrors meet the end walls.
+[[nodiscard]] int corner_count(const notation::Orbifold& orbifold);
+
+// What a scene gets that says nothing: every wall one full mirror, a floor checker, a light ceiling (no lamp: plain colours).
+[[nodiscard]] Surface default_floor();
+[[nodiscard]] Surface default_ceiling();
+/// Wall `number` (from 1): a full mirror of reflectance 0.9; the ends of a strip are plain.
+[[nodiscard]] Wall default_wall(int number, bool strip);
+/// A frame's looks: gilt wood.
+[[nodiscard]] Frame default_frame();
+
+/// The scene that `orbc: 1` and the notation alone describe.
+[[nodiscard]] Scene default_scene(const notation::Orbifold& orbifold);
+
+}  // namespace orbc::scene

@@ -1,0 +1,102 @@
+// Code points are counted by their first bytes; a table every 256 bytes keeps a 4 MB line from costing quadratic time.
+#include "compiler/scene/locator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace orbc::scene {
+namespace {
+
+constexpr std::size_t kBlock = 256;
+
+bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
+
+struct Decoded {
+  std::size_t length = 0;           // 0: not UTF-8 (overlong, surrogate, beyond U+10FFFF, truncated)
+  char32_t character = 0;
+};
+
+Decoded decode(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(at);
+  if (lead < 0x80) return {1, lead};
+  const std::size_t length = lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+  if (length == 0 || at + length > text.size()) return {};
+  char32_t character = lead & (0x7F >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xC0) != 0x80) return {};
+    character = character << 6 | (byte(at + i) & 0x3F);
+  }
+  const bool overlong = (length == 3 && character < 0x800) || (length == 4 && character < 0x10000);
+  if (overlong || (character >= 0xD800 && character < 0xE000) || character > 0x10FFFF) return {};
+  return {length, character};
+}
+
+bool printable(char32_t c) {
+  return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c < 0x7F) || c == 0x85 || (c >= 0xA0 && c < 0xFFFE && c != 0xFEFF) || c >= 0x10000;
+}
+
+}  // namespace
+
+Locator::Locator(std::shared_ptr<const SourceText> source) : source_(std::move(source)), line_starts_{0} {
+  const std::string& text = source_->text;
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (i % kBlock == 0) characters_.push_back(characters);
+    if (starts_character(text[i])) ++characters;
+    if (text[i] == '\n') line_starts_.push_back(i + 1);
+  }
+  if (text.size() % kBlock == 0) characters_.push_back(characters);
+}
+
+std::size_t Locator::characters_before(std::size_t offset) const {
+  const std::string& text = source_->text;
+  std::size_t count = characters_[offset / kBlock];
+  for (std::size_t i = offset / kBlock * kBlock; i < offset; ++i) count += starts_character(text[i]);
+  return count;
+}
+
+SourceSpan Locator::span(std::size_t begin, std::size_t end) const {
+  begin = std::min(begin, text().size());
+  end = std::clamp(end, begin, text().size());
+  const auto line = std::upper_bound(line_starts_.begin(), line_starts_.end(), begin) - line_starts_.begin();
+  const std::size_t line_start = line_starts_[static_cast<std::size_t>(line) - 1];
+  const std::size_t before = characters_before(begin);
+  return {source_, static_cast<std::size_t>(line), before - characters_before(line_start) + 1, std::max<std::size_t>(1, characters_before(end) - before)};
+}
+
+SourceSpan Locator::at(std::size_t offset) const { return span(offset, offset + 1); }
+
+SourceSpan Locator::token_at(std::size_t offset) const {
+  offset = std::min(offset, text().size());
+  return span(offset, std::min(text().find_first_of(" \t\r\n,]}", offset), text().size()));
+}
+
+SourceSpan Locator::scalar_at(std::size_t offset, std::string_view value) const {
+  offset = std::min(offset, text().size());
+  const std::string_view rest = text().substr(offset);
+  if (!value.empty() && rest.substr(0, value.size()) == value) return span(offset, offset + std::min(value.size(), value.find('\n')));
+  if (rest.empty() || (rest[0] != '"' && rest[0] != '\'')) return at(offset);
+  for (std::size_t i = 1; i < rest.size() && rest[i] != '\n'; ++i) {
+    if (rest[i] == rest[0]) return span(offset, offset + i + 1);
+    if (rest[i] == '\\' && rest[0] == '"') ++i;
+  }
+  return at(offset);
+}
+
+std::optional<Diagnostic> Locator::first_bad_character() const {
+  for (std::size_t i = 0; i < text().size();) {
+    const Decoded decoded = decode(text(), i);
+    if (decoded.length == 0)
+      return make_error("scene.not-utf8", fmt::format("byte {} (0x{:02X}) is not UTF-8", i + 1, static_cast<unsigned char>(text()[i])),
+                        "save the file with the encoding UTF-8", at(i));
+    if (!printable(decoded.character))
+      return make_error("scene.bad-character", fmt::format("the character U+{:04X} may not stand in a scene", static_cast<unsigned>(decoded.character)),
+                        "remove it; an editor may show it as nothing", at(i));
+    i += decoded.length;
+  }
+  return std::nullopt;
+}
+
+}  // namespace orbc::scene

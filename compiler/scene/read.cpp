@@ -1,0 +1,146 @@
+// From text to scene: the document first (read_yaml.cpp), then its parts, each in its file, then what only shows of the whole (check.cpp).
+#include "compiler/scene/read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "compiler/scene/check.h"
+#include "compiler/scene/defaults.h"
+#include "compiler/scene/orbifold_of.h"
+#include "compiler/scene/parts.h"
+
+namespace orbc::scene {
+namespace {
+
+constexpr std::size_t kMaxReported = 100;          // more errors help nobody, and printing them would take long
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+void read_version(const Fields& fields) {
+  fields.require("orbc", "start the file with `orbc: 1`");
+  const Node* node = fields.find("orbc");
+  if (!node) return;
+  const auto version = number_of(*node);
+  if (!version) fields.reader().wrong_type(*node, "`orbc`", "the version of the file format, the number 1");
+  else if (*version != 1)
+    fields.reader().error("scene.wrong-version", node->span, fmt::format("this file has version {} of the scene format, this program reads version 1", node->text.substr(0, 40)), "write `orbc: 1`");
+}
+
+std::optional<notation::Orbifold> read_orbifold(const Fields& fields, bool allow_non_orbifold) {
+  Reader& reader = fields.reader();
+  fields.require("orbifold", "say which room this is: orbifold: \"*22222\"");
+  const Node* node = fields.find("orbifold");
+  if (!node) return std::nullopt;
+  const auto text = reader.text(*node, "`orbifold`");
+  if (!text) return std::nullopt;
+  OrbifoldOf read = orbifold_of(*text, allow_non_orbifold, node->span);
+  reader.diagnostics.insert(reader.diagnostics.end(), read.diagnostics.begin(), read.diagnostics.end());
+  return read.orbifold;
+}
+
+Node empty_map() {
+  Node node;
+  node.kind = NodeKind::map;
+  return node;
+}
+
+Scene read_root(Reader& reader, const Node& root) {
+  Scene scene;
+  scene.span = root.span;
+  const Fields fields(reader, root, "the scene", {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "camera", "cover"});
+  if (!fields.is_map()) return scene;
+  read_version(fields);
+  scene.allow_non_orbifold = fields.boolean("allow_non_orbifold", false);
+  RoomFacts facts;
+  if (auto orbifold = read_orbifold(fields, scene.allow_non_orbifold)) {
+    scene.orbifold = std::move(*orbifold);
+    scene.orbifold_span = fields.find("orbifold")->span;
+    facts = facts_of(scene.orbifold);
+  }
+  const Node nothing_said = empty_map();
+  const auto part = [&](std::string_view key) -> const Node& { return fields.has(key) ? *fields.find(key) : nothing_said; };
+  scene.room = read_room(reader, part("room"), facts);
+  if (fields.has("objects")) scene.objects = read_objects(reader, part("objects"), facts);
+  if (fields.has("lights")) scene.lamps = read_lamps(reader, part("lights"), facts);
+  scene.ambient = fields.color("ambient", scene.ambient);
+  scene.exposure = fields.number("exposure", scene.exposure, {0, 1e6, true});
+  scene.camera = read_camera(reader, part("camera"), facts);
+  scene.cover = read_cover(reader, part("cover"));
+  return scene;
+}
+
+// The order of the file, so that an author can work from top to bottom; errors that have no place come first.
+void sort_by_place(Diagnostics& diagnostics) {
+  std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.span.line, a.span.column) < std::pair(b.span.line, b.span.column);
+  });
+}
+
+Diagnostics limited(Diagnostics diagnostics) {
+  if (diagnostics.size() <= kMaxReported) return diagnostics;
+  const std::size_t more = diagnostics.size() - kMaxReported;
+  std::stable_partition(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) { return d.severity == Severity::error; });
+  diagnostics.resize(kMaxReported);
+  sort_by_place(diagnostics);
+  diagnostics.push_back(make_note("scene.too-many-errors", fmt::format("{} more are not shown", more)));
+  return diagnostics;
+}
+
+bool is_error(const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }
+
+Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const std::string& folder) {
+  Result<Document> document = parse_document(source);
+  if (!document) return document.error();
+  Reader reader;
+  reader.diagnostics = std::move(document->faults);
+  Read read{read_root(reader, document->root), {}};
+  read.scene.folder = folder;
+  if (std::none_of(reader.diagnostics.begin(), reader.diagnostics.end(), is_error) || read.scene.orbifold_span.source) {
+    Diagnostics found = check(read.scene);
+    std::move(found.begin(), found.end(), std::back_inserter(reader.diagnostics));
+  }
+  sort_by_place(reader.diagnostics);
+  if (has_error(reader.diagnostics)) return limited(std::move(reader.diagnostics));
+  read.notes = limited(std::move(reader.diagnostics));
+  return read;
+}
+
+}  // namespace
+
+RoomFacts facts_of(const notation::Orbifold& orbifold) {
+  const bool right_angles = std::all_of(orbifold.corners.begin(), orbifold.corners.end(), [](const Rational& k) { return k == 2; });
+  return {wall_count(orbifold), corner_count(orbifold), orbifold.strip, curvature_sign(orbifold) == 0, orbifold.corners.size() == 4 && right_angles};
+}
+
+Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder) {
+  const std::string& text = source->text;
+  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_marked(source, folder);
+  return read_marked(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder);
+}
+
+Result<Read> read_scene(const SourceText& source, const std::string& folder) { return read_scene(std::make_shared<const SourceText>(source), folder); }
+
+Result<Read> load_scene(const std::string& path) {
+  const auto cannot_read = [&](const std::string& why) {
+    return make_error("scene.cannot-read", fmt::format("cannot read the scene {}: {}", path, why), "give the path of a scene file; `orbc new '*2323'` writes one");
+  };
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return cannot_read("it is a folder");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return cannot_read(errno != 0 ? std::strerror(errno) : "it cannot be opened");
+  const std::size_t limit = DocumentLimits{}.bytes;
+  std::string text(limit + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) return cannot_read("reading failed");
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > limit)
+    return make_error("scene.too-large", fmt::format("{} has more bytes than a scene may have ({})", path, limit), "put big data into mesh files");
+  return read_scene(SourceText{path, std::move(text)}, std::filesystem::path(path).parent_path().string());
+}
+
+}  // namespace orbc::scene

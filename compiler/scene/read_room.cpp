@@ -1,0 +1,266 @@
+// The room: shape, height, floor, ceiling, and walls, where `all` is said first and a wall's own entry replaces what it facts.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/scene/defaults.h"
+#include "compiler/scene/parts.h"
+
+namespace orbc::scene {
+namespace {
+
+std::vector<std::string> with_material_keys(std::vector<std::string> keys) {
+  keys.insert(keys.end(), material_keys().begin(), material_keys().end());
+  return keys;
+}
+
+constexpr const char* kShowWall = "`mirror: none` makes the wall plain, `span` and `height` make the mirror smaller";
+
+bool is_none(const Node& node) { return node.kind == NodeKind::scalar && node.text == "none"; }
+
+std::vector<Cut> read_cuts(Reader& reader, const Node& node, double length, const RoomFacts& facts) {
+  std::vector<Cut> cuts;
+  if (node.kind != NodeKind::list) {
+    reader.wrong_type(node, "`cuts`", "a list of cuts", "write [{walls: [2, 4], length: 1.4}]");
+    return cuts;
+  }
+  for (const Node& item : node.items) {
+    const Fields fields(reader, item, "a cut", {"walls", "length"});
+    fields.require("walls", "write {walls: [2, 4], length: 1.4}");
+    Cut cut;
+    cut.length = fields.number("length", length, kLength);
+    if (const Node* walls = fields.find("walls"); walls && reader.list(*walls, "`walls`", 2, "a list of two wall numbers")) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        cut.walls[i] = reader.integer(walls->items[i], "a wall number", 1, 1, 999'999);
+        if (facts.walls > 0 && cut.walls[i] > facts.walls)
+          reader.error("scene.no-such-wall", walls->items[i].span, fmt::format("there is no wall {}", cut.walls[i]), fmt::format("this room has walls 1 to {}", facts.walls));
+      }
+    }
+    cuts.push_back(cut);
+  }
+  return cuts;
+}
+
+std::map<int, double> read_lengths(Reader& reader, const Node& node, const RoomFacts& facts) {
+  std::map<int, double> lengths;
+  if (node.kind != NodeKind::map) {
+    reader.wrong_type(node, "`lengths`", "a map of wall numbers to side lengths", "write {1: 0.8, 2: 1.1}");
+    return lengths;
+  }
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    const int wall = read_wall_number(reader, node.keys[i], facts);
+    lengths[wall] = reader.number(node.items[i], fmt::format("the length of wall {}", wall), 1, kLength);
+  }
+  return lengths;
+}
+
+Shape read_shape(const Fields& room, const RoomFacts& facts) {
+  Shape shape;
+  shape.span = room.has("shape") ? room.find("shape")->span : room.node().span;
+  shape.kind = room.choice<ShapeKind>("shape", shape.kind, {{"tangential", ShapeKind::tangential}, {"paper", ShapeKind::paper}, {"lengths", ShapeKind::lengths}});
+  shape.cut = room.number("cut", shape.cut, kLength);
+  if (const Node* cuts = room.find("cuts")) shape.cuts = read_cuts(room.reader(), *cuts, shape.cut, facts);
+  if (const Node* lengths = room.find("lengths")) shape.lengths = read_lengths(room.reader(), *lengths, facts);
+  shape.scale = room.number("scale", shape.scale, kLength);
+  shape.aspect = room.number("aspect", shape.aspect, {0.001, 1000});
+  shape.strip_length = room.number("length", shape.strip_length, kLength);
+  if (shape.kind != ShapeKind::paper)
+    for (const char* key : {"cut", "cuts"}) room.no_effect(key, "it belongs to `shape: paper`");
+  if (facts.walls > 0 && !facts.flat) room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius");
+  if (facts.walls > 0 && !facts.rectangle) room.no_effect("aspect", "only `*2222` may be stretched");
+  if (facts.walls > 0 && !facts.strip) room.no_effect("length", "it belongs to the strip `**`");
+  if (shape.kind != ShapeKind::lengths) room.no_effect("lengths", "it belongs to `shape: lengths`");
+  else room.require("lengths", "give the side lengths of all walls but three: lengths: {1: 0.8, 2: 1.1}");
+  return shape;
+}
+
+struct MirrorDraft {
+  Mirror mirror;
+  bool frame_given = false;         // `frame: none` at a mirror beats the frame of its wall
+};
+
+// What was said of a wall; what was not said is left to `all` and to the defaults.
+struct WallDraft {
+  std::optional<Material> material;
+  std::optional<std::vector<MirrorDraft>> mirrors;
+  std::optional<std::optional<Frame>> frame;
+  SourceSpan span;
+};
+
+std::optional<Frame> read_frame(Reader& reader, const Node& node) {
+  if (is_none(node)) return std::nullopt;
+  Frame frame = default_frame();
+  const Fields fields(reader, node, "a frame", with_material_keys({"width"}));
+  frame.width = fields.number("width", frame.width, kLength);
+  if (has_material_key(fields)) frame.material = read_material_keys(fields, frame.material);
+  return frame;
+}
+
+std::optional<std::array<double, 2>> read_interval(const Fields& fields, const char* key, const char* wanted) {
+  const Node* node = fields.find(key);
+  if (!node) return std::nullopt;
+  const auto interval = fields.reader().numbers<2>(*node, fmt::format("`{}`", key), {0, 1}, kDistance, wanted);
+  if (interval[0] < interval[1]) return interval;
+  fields.reader().error("scene.bad-interval", node->span, fmt::format("`{}` goes from {} to {}: the first must be smaller", key, interval[0], interval[1]), wanted);
+  return std::nullopt;
+}
+
+MirrorDraft read_mirror(Reader& reader, const Node& node, bool on_wall) {
+  MirrorDraft draft;
+  Mirror& mirror = draft.mirror;
+  mirror.source = node.span;
+  const std::vector<std::string> keys = {"reflectance", "tint", "span", "height", "frame"};
+  const Fields fields(reader, node, on_wall ? "a mirror" : "a mirror on floor or ceiling", {keys.begin(), keys.begin() + (on_wall ? 5 : 2)});
+  mirror.reflectance = fields.number("reflectance", mirror.reflectance, kUnit);
+  mirror.tint = fields.color("tint", mirror.tint);
+  if (!on_wall) return draft;
+  mirror.span = read_interval(fields, "span", "a list of two lengths along the wall, from its first corner: [0.1, 0.5]");
+  mirror.height = read_interval(fields, "height", "a list of two heights above the floor: [0.2, 0.9]");
+  if (const Node* frame = fields.find("frame")) mirror.frame = read_frame(reader, *frame), draft.frame_given = true;
+  return draft;
+}
+
+std::vector<MirrorDraft> read_mirrors(Reader& reader, const Node& node) {
+  std::vector<MirrorDraft> mirrors;
+  if (is_none(node)) return mirrors;
+  if (node.kind != NodeKind::list) {
+    reader.wrong_type(node, "`mirrors`", "a list of mirrors", "one mirror alone is `mirror: {…}`");
+    return mirrors;
+  }
+  for (const Node& item : node.items) mirrors.push_back(read_mirror(reader, item, true));
+  return mirrors;
+}
+
+WallDraft read_wall(Reader& reader, const Node& node, const std::string& what) {
+  WallDraft wall;
+  wall.span = node.span;
+  const Fields fields(reader, node, what, with_material_keys({"mirror", "mirrors", "frame"}));
+  if (has_material_key(fields)) wall.material = read_material_keys(fields, default_wall(1, false).material);
+  const std::string key = fields.only_one_of({"mirror", "mirrors"});
+  if (key == "mirror") {
+    const Node& mirror = *fields.find("mirror");
+    wall.mirrors.emplace();
+    if (!is_none(mirror)) wall.mirrors->push_back(read_mirror(reader, mirror, true));
+  } else if (key == "mirrors") {
+    wall.mirrors = read_mirrors(reader, *fields.find("mirrors"));
+  }
+  if (const Node* frame = fields.find("frame")) wall.frame = read_frame(reader, *frame);
+  return wall;
+}
+
+// Nothing of the wall's own material is seen.
+bool hidden_by_mirror(const Wall& wall) { return wall.mirrors.size() == 1 && !wall.mirrors[0].span && !wall.mirrors[0].height; }
+
+bool overlap(const std::optional<std::array<double, 2>>& a, const std::optional<std::array<double, 2>>& b) {
+  return !a || !b || ((*a)[0] < (*b)[1] && (*b)[0] < (*a)[1]);
+}
+
+void check_mirrors(Reader& reader, const std::vector<MirrorDraft>& mirrors, double height) {
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    const Mirror& mirror = mirrors[i].mirror;
+    if (mirror.height && (*mirror.height)[0] >= height)
+      reader.error("scene.above-ceiling", mirror.source, fmt::format("this mirror starts at height {}, but the room is only {} high", (*mirror.height)[0], height));
+    else if (mirror.height && (*mirror.height)[1] > height)
+      reader.warning("scene.cut-off", mirror.source, fmt::format("this mirror reaches up to {}, but the room is only {} high: it is cut off there", (*mirror.height)[1], height));
+    for (std::size_t j = 0; j < i; ++j)
+      if (const Mirror& other = mirrors[j].mirror; overlap(mirror.span, other.span) && overlap(mirror.height, other.height)) {
+        reader.error("scene.mirrors-overlap", mirror.source, fmt::format("this mirror overlaps the one of line {}", other.source.line), "move one of them: mirrors of a wall may touch, not overlap");
+        break;
+      }
+  }
+}
+
+Wall merged(const WallDraft& all, const WallDraft* own, int number, bool strip) {
+  Wall wall = default_wall(number, strip);
+  const bool end = strip && number % 2 == 0;
+  wall.span = own ? own->span : all.span;
+  for (const WallDraft* draft : {&all, own}) {
+    if (!draft) continue;
+    if (draft->material) wall.material = *draft->material;
+  }
+  const std::vector<MirrorDraft> standard = [&] {
+    std::vector<MirrorDraft> drafts;
+    for (Mirror& mirror : wall.mirrors) drafts.push_back({std::move(mirror), false});
+    return drafts;
+  }();
+  const auto& mirrors = own && own->mirrors ? *own->mirrors : all.mirrors && !end ? *all.mirrors : standard;
+  const auto& frame = own && own->frame ? own->frame : all.frame;
+  wall.mirrors.clear();
+  for (const MirrorDraft& draft : mirrors) {
+    wall.mirrors.push_back(draft.mirror);
+    if (!draft.frame_given && frame) wall.mirrors.back().frame = *frame;
+  }
+  return wall;
+}
+
+void check_wall(Reader& reader, const Node* own, const WallDraft* draft, const Wall& wall, const RoomFacts& facts, int number, double height) {
+  if (!own || own->kind != NodeKind::map) return;
+  if (facts.strip && number % 2 == 0 && draft->mirrors && !draft->mirrors->empty())
+    reader.error("scene.end-wall-mirror", own->span, fmt::format("wall {} closes the strip `**` and cannot be a mirror", number), "only walls 1 and 3 of `**` are mirrors");
+  if (draft->material && hidden_by_mirror(wall))
+    reader.warning("scene.no-effect", draft->material->span, fmt::format("nothing is seen of the material of wall {}: a mirror covers all of it", number), kShowWall);
+  if (draft->frame && *draft->frame && wall.mirrors.empty())
+    reader.warning("scene.no-effect", own->span, fmt::format("wall {} has a frame but no mirror", number), "remove the frame");
+  if (draft->mirrors) check_mirrors(reader, *draft->mirrors, height);
+}
+
+std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& facts, double height) {
+  WallDraft all;
+  std::map<int, std::pair<const Node*, WallDraft>> own;
+  if (node && node->kind != NodeKind::map) reader.wrong_type(*node, "`walls`", "a map", "its keys are `all` and wall numbers: walls: {all: {…}, 2: {…}}");
+  else if (node) {
+    for (std::size_t i = 0; i < node->keys.size(); ++i) {
+      if (node->keys[i].text == "all") {
+        all = read_wall(reader, node->items[i], "`all`");
+        if (all.mirrors) check_mirrors(reader, *all.mirrors, height);
+      } else if (const int number = read_wall_number(reader, node->keys[i], facts)) {
+        own[number] = {&node->items[i], read_wall(reader, node->items[i], fmt::format("wall {}", number))};
+      }
+    }
+  }
+  std::vector<Wall> walls;
+  for (int number = 1; number <= facts.walls; ++number) {
+    const auto found = own.find(number);
+    const Node* own_node = found == own.end() ? nullptr : found->second.first;
+    const WallDraft* draft = own_node ? &found->second.second : nullptr;
+    walls.push_back(merged(all, draft, number, facts.strip));
+    check_wall(reader, own_node, draft, walls.back(), facts, number, height);
+  }
+  if (all.material && facts.walls > 0 && std::all_of(walls.begin(), walls.end(), hidden_by_mirror))
+    reader.warning("scene.no-effect", all.material->span, "nothing is seen of the material of the walls: mirrors cover all of them", kShowWall);
+  return walls;
+}
+
+Surface read_surface(Reader& reader, const Node& node, const std::string& what, const Surface& fallback) {
+  Surface surface = fallback;
+  surface.span = node.span;
+  if (node.kind != NodeKind::map) {
+    surface.material = read_material(reader, node, what, Material{});
+    return surface;
+  }
+  const Fields fields(reader, node, what, with_material_keys({"mirror"}));
+  if (has_material_key(fields)) surface.material = read_material_keys(fields, Material{});
+  const Node* mirror = fields.find("mirror");
+  if (!mirror || is_none(*mirror)) return surface;
+  surface.mirror = read_mirror(reader, *mirror, false).mirror;
+  for (const std::string& key : material_keys()) fields.no_effect(key, "a mirror covers all of it");
+  return surface;
+}
+
+}  // namespace
+
+RoomSpec read_room(Reader& reader, const Node& node, const RoomFacts& facts) {
+  RoomSpec room;
+  room.span = node.span;
+  const Fields fields(reader, node, "the room", {"shape", "cut", "cuts", "lengths", "scale", "aspect", "length", "height", "floor", "ceiling", "walls"});
+  room.shape = read_shape(fields, facts);
+  room.height = fields.number("height", room.height, kLength);
+  room.floor = default_floor();
+  room.ceiling = default_ceiling();
+  if (const Node* floor = fields.find("floor")) room.floor = read_surface(reader, *floor, "`floor`", room.floor);
+  if (const Node* ceiling = fields.find("ceiling")) room.ceiling = read_surface(reader, *ceiling, "`ceiling`", room.ceiling);
+  room.walls = read_walls(reader, fields.find("walls"), facts, room.height);
+  return room;
+}
+
+}  // namespace orbc::scene
