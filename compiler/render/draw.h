@@ -1,0 +1,29 @@
+#pragma once
+#include "compiler/base/executor.h"
+#include "compiler/base/progress.h"
+#include "compiler/place/eye.h"
+#include "compiler/render/film.h"
+#include "compiler/trace/follow.h"
+
+namespace orbc::render {
+
+struct DrawOptions {
+  int samples = 1;                  ///< per pixel; 1 = the pixel's centre, n² = a regular grid, else a rank-1 lattice
+  int max_bounces = 12;
+  double min_weight = 0;
+  int max_depth = 16;               ///< mirror and glass objects met on one path
+  scene::Color background;          ///< seen, as it is, where a path is cut off
+};
+
+/// The reference picture: every pixel's rays followed as geodesics through real mirrors. Never unfolds, never bends.
+/// Makes: the same film, bit by bit, for any executor: samples are fixed points of the pixel, pixels are independent.
+[[nodiscard]] Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor,
+                        const Progress& progress = {});
+
+/// The geodesic that starts at the eye through the picture at (x, y) pixels.
+[[nodiscard]] trace::Ray eye_ray(const place::Eye& eye, double x, double y);
+
+/// Offsets of the samples of a pixel, in [0, 1)².
+[[nodiscard]] std::vector<std::array<double, 2>> sample_points(int samples);
+
+}  // namespace orbc::render
