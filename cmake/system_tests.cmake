@@ -1,0 +1,15 @@
+# Tests that run real programs: povray, blender, node. One line each; labels render and slow.
+add_executable(sample_products ${CMAKE_SOURCE_DIR}/tests/system/sample_products.cpp)
+target_link_libraries(sample_products PRIVATE orbc::pov orbc::gltf)
+
+# orbc_system_test(name script timeout labels…): runs tests/system/<script> with the folder of the built programs; exit code 77 = a program is missing.
+function(orbc_system_test name script timeout)
+  add_test(NAME ${name} COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/system/${script} ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARGN}" TIMEOUT ${timeout} SKIP_RETURN_CODE 77)
+endfunction()
+
+orbc_system_test(system_pov_colours pov_colours.py 120 render)
+orbc_system_test(system_cameras_povray cameras_povray.py 120 render)
+orbc_system_test(system_povray_pipe povray_pipe.py 180 render)
+orbc_system_test(system_gltf_valid gltf_valid.py 120 fast)
+orbc_system_test(system_blender blender.py 300 render slow)
