@@ -110,8 +110,16 @@ def local_file(scene, folder):
     return text_path
 
 
-def load(path):
-    import numpy
+def load(path, name):
+    try:
+        import numpy
+    except ImportError:
+        # Another Python earlier in PATH leads Blender's own away from Debian's packages.
+        sys.path.append('/usr/lib/python3/dist-packages')
+        try:
+            import numpy
+        except ImportError:
+            raise Failure(3, 'numpy is not installed (Debian: apt-get install python3-numpy)') from None
     if not hasattr(numpy, 'bool'):
         numpy.bool = bool  # Blender 3.4's importer still uses the alias that numpy 1.24 dropped
     import addon_utils
@@ -121,12 +129,12 @@ def load(path):
     try:
         result = bpy.ops.import_scene.gltf(filepath=path, import_shading='FLAT')
     except RuntimeError as error:
-        raise Failure(1, f'Blender cannot import {path}: {error}') from None
+        raise Failure(1, f'Blender cannot import {name}: {str(error).strip()}') from None
     if result != {'FINISHED'}:
-        raise Failure(1, f'Blender cannot import {path}')
+        raise Failure(1, f'Blender cannot import {name}')
     cameras = [thing for thing in bpy.context.scene.objects if thing.type == 'CAMERA']
     if not cameras:
-        raise Failure(1, f'{path} has no camera')
+        raise Failure(1, f'{name} has no camera')
     bpy.context.scene.camera = cameras[0]
     return cameras[0].data
 
@@ -195,8 +203,10 @@ def draw(arguments):
     options = parse_arguments(arguments)
     if options.output == '-':
         raise Failure(2, 'inside Blender standard output is full of its messages; use -o FILE or -o fd:3 3>FILE')
+    if not options.output.startswith('fd:') and not os.path.isdir(os.path.dirname(os.path.abspath(options.output))):
+        raise Failure(3, f'no such folder: {os.path.dirname(options.output)}')
     with tempfile.TemporaryDirectory(prefix='render_blender.') as folder:
-        camera = load(local_file(options.scene, folder))
+        camera = load(local_file(options.scene, folder), 'the scene on standard input' if options.scene == '-' else options.scene)
         set_camera(camera)
         scene = bpy.context.scene
         set_background(scene, list(camera.get('orbc_background', (0, 0, 0))))

@@ -15,7 +15,7 @@ with folder() as where:
     off = np.abs(picture(os.path.join(where, 'codes.png')) - wanted)
     check(off[:16].max() < 1e-6, f'weight 1: texels come through unchanged (worst {off[:16].max():.2e})')
     # Rounded to the nearest code; exact ties may go either way.
-    check(off.max() < 0.5 + 1e-3, f'weights multiply in linear light (worst {off.max():.4f} of half a step)')
+    check(off.max() < 0.5 + 1e-3, f'weights multiply in linear light (worst {off.max():.4f} of a code)')
 
     facts = sample('squares', 'pov', where)
     done = run([SCRIPTS / 'povray-pipe', os.path.join(where, 'squares.pov'), '-o', os.path.join(where, 'squares.png')])
