@@ -18,6 +18,8 @@ struct BendOptions {
   View view = View::eye;
   double tolerance_px = 0.25;       ///< largest distance of a bent chord from the true curve, in pixels of the eye's picture; > 0
   double disk_tolerance = 1e-3;     ///< the same for View::disk, in chart length
+  bool colours_vary = false;        ///< colours change inside triangles everywhere (baked light), not only where a part has a texture or a pattern
+  double colour_tolerance = 4;      ///< how far such colours may shift within their surface, in units of the tolerance; > 0
   std::uint64_t max_triangles = 200'000'000;
 };
 
@@ -33,7 +35,8 @@ struct BentCover {
   std::vector<std::array<float, 2>> uv;
   std::vector<std::uint32_t> indices;       ///< absolute, three a triangle
   std::vector<BentRange> copies;            ///< parallel to the copies given
-  double error_bound_px = 0;                ///< measured bound of the chord error
+  double error_bound_px = 0;                ///< largest chord error in the picture (View::disk: in chart length), found or bounded edge by edge
+  std::uint64_t split_parts = 0;            ///< how many parts of copies had to be split, for the report
 };
 
 /// Bends every copy of the room for the eye: splits edges until every chord lies within the tolerance of the true image, each edge judged
