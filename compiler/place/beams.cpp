@@ -1,0 +1,196 @@
+// In front of a line, the point at arc length s and depth d is P(s, d) = cosκ(d)·X(s) + sinκ(d)·N, with the line's own vector N = (κ l_w, l_x, l_y):
+// N is the unit normal at every point of the line (Thurston 1997, §2.4). Lines of constant d are equidistants of geodesic curvature tanκ(d).
+#include "compiler/place/beams.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "compiler/place/locate.h"
+#include "compiler/place/net.h"
+
+namespace orbc::place {
+namespace {
+
+using geometry::Ambient;
+using geometry::Line;
+using geometry::Point;
+using geometry::Position;
+using geometry::Space;
+
+/// Coordinates along a line: arc length, depth to its left.
+struct Strip {
+  Space space;
+  Point start;
+  geometry::Tangent along;
+  Line line;
+  [[nodiscard]] Point at(double s, double d) const {
+    const Ambient normal{geometry::curvature(space) * line.w, line.x, line.y};
+    return geometry::normalised_point(space, geometry::cos_k(space, d) * geometry::point_along(space, start, along, s) + geometry::sin_k(space, d) * normal);
+  }
+};
+
+/// Quads over shared vertices; a vertex is known by its place in the strip.
+class Quads {
+ public:
+  explicit Quads(const Strip& strip) : strip_(strip) {}
+  using Place = std::array<double, 3>;   // s, depth, z
+  void add(const Place& a, const Place& b, const Place& c, const Place& d) {
+    const std::array<std::uint32_t, 4> v{vertex(a), vertex(b), vertex(c), vertex(d)};
+    // Two triangles: a sloping quad is no plane, and cutting it as one polygon would tear it from its neighbours.
+    net.pieces.push_back({{{v[0], 0}, {v[1], 1}, {v[2], 2}}, 0});
+    net.pieces.push_back({{{v[0], 2}, {v[2], 3}, {v[3], 4}}, 0});
+  }
+  Net net;
+
+ private:
+  std::uint32_t vertex(const Place& p) {
+    const auto [at, is_new] = known_.try_emplace(p, static_cast<std::uint32_t>(net.vertices.size()));
+    if (is_new) net.vertices.push_back({strip_.at(p[0], p[1]), p[2]});
+    return at->second;
+  }
+  const Strip& strip_;
+  std::map<Place, std::uint32_t> known_;
+};
+
+// Chord h of an equidistant at depth d: sagitta tanκ(d)·h²/8 ≤ width/1000 at d = width/2 gives h = 0.126.
+int step_count(Space space, double length) { return space == Space::euclidean ? 1 : std::max(1, static_cast<int>(std::ceil(length / 0.126))); }
+
+std::vector<double> steps(Space space, double from, double to) {
+  const int n = step_count(space, to - from);
+  std::vector<double> s(n + 1);
+  for (int i = 0; i <= n; ++i) s[i] = i == n ? to : from + (to - from) * i / n;
+  return s;
+}
+
+void clip(Space space, Net& net, const Line& line, int side) { net.pieces = cut(space, net, net.pieces, line, side).left; }
+
+PlacedMesh to_mesh(Space space, Net net) {
+  PlacedMesh mesh;
+  for (const Net::Piece& piece : net.pieces)
+    for (const mesh::Triangle& t : triangulate(space, net, piece)) mesh.triangles.push_back(t);
+  // Clipping leaves vertices behind that nothing uses.
+  std::vector<std::uint32_t> renamed(net.vertices.size(), ~0u);
+  for (mesh::Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) {
+      if (renamed[v] == ~0u) {
+        renamed[v] = static_cast<std::uint32_t>(mesh.floor.size());
+        mesh.floor.push_back(net.vertices[v].floor);
+        mesh.z.push_back(net.vertices[v].z);
+      }
+      v = renamed[v];
+    }
+  mesh.look.assign(mesh.triangles.size(), 0);
+  return mesh;
+}
+
+bool reaches_start(const FrameSpec& f) { return f.span[0] - f.width / 2 <= 0; }
+bool reaches_end(const room::Room& room, const FrameSpec& f) { return f.span[1] + f.width / 2 >= room.walls[f.wall].length; }
+
+// Whether some frame of the same width stands in the same corner on the other wall.
+bool meets(const room::Room& room, const std::vector<FrameSpec>& frames, const FrameSpec& f, bool at_start) {
+  const int n = static_cast<int>(room.walls.size()), other = (f.wall + (at_start ? n - 1 : 1)) % n;
+  return std::any_of(frames.begin(), frames.end(), [&](const FrameSpec& g) {
+    return g.wall == other && g.width == f.width && (at_start ? reaches_end(room, g) : reaches_start(g)) && g.height[0] <= f.height[1] && f.height[0] <= g.height[1];
+  });
+}
+
+// Front, and the inner and outer flanks, of one frame, as large as it would be without the room around it.
+Net bare_frame(const room::Room& room, double height, const FrameSpec& f) {
+  const room::Wall& wall = room.walls[f.wall];
+  const Strip strip{room.space, wall.start, wall.along, wall.line};
+  const double half = f.width / 2;
+  const bool closed = room.corners.empty() && f.span[0] <= 0 && f.span[1] >= wall.length;   // a whole great circle has no ends
+  const bool plate = (!closed && f.span[1] - f.span[0] <= f.width) || f.height[1] - f.height[0] <= f.width;
+  double s0 = f.span[0] - half, s1 = f.span[0] + half, s2 = f.span[1] - half, s3 = f.span[1] + half;
+  if (closed) s0 = s1 = 0, s2 = s3 = wall.length;
+  if (s1 > s2) s1 = s2 = 0.5 * (s1 + s2);
+  const double z0 = std::fmax(0, f.height[0] - half), z3 = std::fmin(height, f.height[1] + half);
+  double z1 = std::fmin(height, f.height[0] + half), z2 = std::fmax(0, f.height[1] - half);
+  if (z1 > z2) z1 = z2 = 0.5 * (z1 + z2);
+  Quads quads(strip);
+  std::vector<double> s = steps(room.space, s1, s2);
+  const std::size_t first = s0 < s1 ? 1 : 0, last = s.size() - 1 + first;   // s[first]…s[last] run over the opening
+  if (s0 < s1) s.insert(s.begin(), s0);
+  if (s2 < s3) s.push_back(s3);
+  const std::array<double, 4> z{z0, z1, z2, z3};
+  for (std::size_t i = 0; i + 1 < s.size(); ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const bool opening = !plate && j == 1 && i >= first && i < last;
+      if (!opening && z[j] < z[j + 1] && s[i] < s[i + 1])
+        quads.add({s[i], half, z[j]}, {s[i], half, z[j + 1]}, {s[i + 1], half, z[j + 1]}, {s[i + 1], half, z[j]});
+    }
+  // A flank over the edge (s, z) → (s', z'), facing to the right of it in (−s, z), which is how the wall is seen.
+  const auto flank = [&](double sa, double za, double sb, double zb) { quads.add({sa, 0, za}, {sa, half, za}, {sb, half, zb}, {sb, 0, zb}); };
+  for (std::size_t i = 0; i + 1 < s.size(); ++i) {
+    if (f.height[0] - half > 0) flank(s[i], z0, s[i + 1], z0);
+    if (f.height[1] + half < height) flank(s[i + 1], z3, s[i], z3);
+    if (!plate && i >= first && i < last) flank(s[i + 1], z1, s[i], z1), flank(s[i], z2, s[i + 1], z2);
+  }
+  for (std::size_t j = 0; j < 3 && !closed; ++j) {
+    if (!(z[j] < z[j + 1])) continue;
+    flank(s0, z[j + 1], s0, z[j]), flank(s3, z[j], s3, z[j + 1]);
+    if (!plate && j == 1) flank(s1, z1, s1, z2), flank(s2, z2, s2, z1);
+  }
+  return std::move(quads.net);
+}
+
+}  // namespace
+
+Line bisector(const room::Room& room, int corner) {
+  const int n = static_cast<int>(room.walls.size());
+  // Equally far from both walls: value before = value after. To the left lies what is nearer to the wall that starts here.
+  const Line &before = room.walls[(corner + n - 1) % n].line, &after = room.walls[corner].line;
+  return geometry::normalised_line(room.space, {before.w - after.w, before.x - after.x, before.y - after.y});
+}
+
+std::vector<PlacedMesh> make_frames(const room::Room& room, double height, const std::vector<FrameSpec>& frames) {
+  const int n = static_cast<int>(room.walls.size());
+  std::vector<PlacedMesh> meshes;
+  for (const FrameSpec& f : frames) {
+    Net net = bare_frame(room, height, f);
+    int side = 10;
+    for (int j = 0; j < n; ++j)
+      if (j != f.wall) clip(room.space, net, room.walls[j].line, side++);
+    if (!room.corners.empty() && reaches_start(f) && meets(room, frames, f, true)) clip(room.space, net, bisector(room, f.wall), side++);
+    if (!room.corners.empty() && reaches_end(room, f) && meets(room, frames, f, false))
+      clip(room.space, net, geometry::reversed(bisector(room, (f.wall + 1) % n)), side++);
+    PlacedMesh mesh = to_mesh(room.space, std::move(net));
+    mesh.kind = PartKind::frame;
+    mesh.wall = f.wall;
+    meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
+Result<PlacedMesh> make_beam(const room::Room& room, double height, const Position& from, const Position& to, double width) {
+  const Space space = room.space;
+  const double run = geometry::distance(space, from.floor, to.floor), rise = to.z - from.z, length = std::hypot(run, rise), half = width / 2;
+  if (!(length > 1e-12)) return make_error("place.no-beam", "this beam begins where it ends", "give it two different positions");
+  Strip strip{space, from.floor, {}, {}};
+  // An upright beam has no direction of its own; it stands along the room's x axis.
+  const geometry::Isometry room_from_foot = geometry::translation_to(space, from.floor);
+  strip.along = run > 1e-12 ? geometry::direction_to(space, from.floor, to.floor) : room_from_foot * geometry::Tangent{0, 1, 0};
+  strip.line = geometry::line_along(space, from.floor, strip.along);
+  const double c = run / length, m = rise / length;
+  Quads quads(strip);
+  // Section corners counter-clockwise seen against the direction of the beam: (depth to the left, upwards).
+  const std::array<std::array<double, 2>, 4> section{{{half, -half}, {half, half}, {-half, half}, {-half, -half}}};
+  const auto place = [&](double t, const std::array<double, 2>& q) { return Quads::Place{c * t - m * q[1], q[0], from.z + m * t + c * q[1]}; };
+  const std::vector<double> t = steps(space, 0, length);
+  for (std::size_t i = 0; i + 1 < t.size(); ++i)
+    for (int k = 0; k < 4; ++k) quads.add(place(t[i], section[k]), place(t[i], section[(k + 1) % 4]), place(t[i + 1], section[(k + 1) % 4]), place(t[i + 1], section[k]));
+  quads.add(place(0, section[3]), place(0, section[2]), place(0, section[1]), place(0, section[0]));
+  quads.add(place(length, section[0]), place(length, section[1]), place(length, section[2]), place(length, section[3]));
+  Net net = std::move(quads.net);
+  int side = 10;
+  for (const room::Wall& wall : room.walls) clip(space, net, wall.line, side++);
+  net.pieces = cut_at_height(space, net, net.pieces, 0, side++).left;
+  net.pieces = cut_at_height(space, net, net.pieces, height, side++).right;
+  PlacedMesh mesh = to_mesh(space, std::move(net));
+  mesh.kind = PartKind::object;
+  return mesh;
+}
+
+}  // namespace orbc::place

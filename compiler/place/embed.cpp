@@ -1,0 +1,190 @@
+// Paper, "Object Embedding and Movement": an object's horizontal coordinates are read as coordinates of the stereographic or Poincaré disk. There lengths at the
+// origin count double, hence (x + iy)/2.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "compiler/geometry/chart.h"
+#include "compiler/geometry/predicates.h"
+#include "compiler/mesh/examine.h"
+#include "compiler/mesh/refine.h"
+#include "compiler/place/locate.h"
+#include "compiler/place/place.h"
+
+namespace orbc::place {
+namespace {
+
+using geometry::Containment;
+using geometry::Point;
+using geometry::Space;
+using geometry::Vector3;
+
+Point embedded(Space space, scene::Embedding embedding, const Vector3& p) {
+  if (embedding == scene::Embedding::exponential) return geometry::point_from_log(space, {p.x, p.y});
+  return geometry::point_from_disk(space, (space == Space::euclidean ? 1.0 : 0.5) * std::complex<double>(p.x, p.y));
+}
+
+// Whether the embedding is defined and one-to-one out to p.
+bool in_chart(Space space, scene::Embedding embedding, const Vector3& p) {
+  const double r = std::hypot(p.x, p.y);
+  if (!(r < 1e6) || !(std::fabs(p.z) < 1e9)) return false;
+  if (embedding == scene::Embedding::exponential) return r < (space == Space::spherical ? std::numbers::pi : space == Space::hyperbolic ? 30 : 1e6);
+  return space != Space::hyperbolic || r < 2 * (1 - 1e-9);
+}
+
+Vector3 standing(const Vector3& p, char up) { return up == 'y' ? Vector3{p.x, -p.z, p.y} : p; }
+
+// ---- refining ---------------------------------------------------------------------------------------------------------------
+
+bool is_too_long(Space space, scene::Embedding embedding, const Vector3& p, const Vector3& q, double tolerance) {
+  const double reach2 = std::fmax(p.x * p.x + p.y * p.y, q.x * q.x + q.y * q.y), dx = p.x - q.x, dy = p.y - q.y;
+  // Near the axis the error is below |z|·l²/8 with |z| ≤ reach/2 in the disk; eight times that settles nearly all edges of a fine mesh.
+  if (reach2 < 0.25 && 0.25 * reach2 * (dx * dx + dy * dy) * (dx * dx + dy * dy) <= tolerance * tolerance) return false;
+  const Point middle = geometry::midpoint(space, embedded(space, embedding, p), embedded(space, embedding, q));
+  return geometry::distance(space, middle, embedded(space, embedding, 0.5 * (p + q))) > tolerance;
+}
+
+// ---- containment ------------------------------------------------------------------------------------------------------------
+
+// Far enough inside that the stored lines and the stored outline cannot disagree: a filter before the exact predicate.
+bool is_clearly_inside(const room::Room& room, const Point& x) {
+  for (const room::Wall& wall : room.walls) {
+    const geometry::Line& l = wall.line;
+    const double size = std::fabs(l.w * x.w) + std::fabs(l.x * x.x) + std::fabs(l.y * x.y);
+    if (!(geometry::value_at(l, x) > 1e-9 * size)) return false;
+  }
+  return true;
+}
+
+struct Fit {
+  Overhang wall{0, 0};
+  double above = 0;              // the ceiling
+  [[nodiscard]] bool inside() const { return wall.distance <= 0 && above <= 0; }
+};
+
+// How an object scaled by `factor` about the foot of its axis would stand; measured, for hints.
+Fit fit(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at, double z, double factor, std::size_t stride) {
+  const geometry::Isometry room_from_object = geometry::translation_to(room.space, at) * geometry::rotation(room.space, object.turn.radians);
+  Fit worst;
+  for (std::size_t i = 0; i < flat.positions.size(); i += stride) {
+    const Vector3 p = factor * flat.positions[i];
+    if (!in_chart(room.space, object.embedding, p)) return {{0, 1e9}, 0};
+    const Overhang over = overhang(room, room_from_object * embedded(room.space, object.embedding, p));
+    if (over.distance > worst.wall.distance) worst.wall = over;
+    worst.above = std::fmax(worst.above, z + p.z - height);
+  }
+  return worst;
+}
+
+std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at, double z) {
+  const std::size_t stride = flat.positions.size() / 20000 + 1;
+  const auto fits = [&](const Point& place, double level, double factor) { return fit(flat, object, room, height, place, level, factor, stride).inside(); };
+  const auto largest = [&](const Point& place, double level) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 20; ++i) (fits(place, level, 0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    return low;
+  };
+  double extent = 0;
+  for (const Vector3& p : flat.positions) extent = std::fmax(extent, 2 * std::fmax(std::fabs(p.x), std::fabs(p.y)));
+  const double size = object.size.value_or(extent), here = largest(at, z);
+  if (here > 0.2) return fmt::format("`size: {:.3g}` fits here", std::floor(1000 * here * size * 0.998) / 1000);
+  if (fits({}, 0, 1)) return "it fits at the centre of the room";
+  return fmt::format("`size: {:.3g}` fits at the centre of the room", std::floor(1000 * largest({}, 0) * size * 0.998) / 1000);
+}
+
+std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at,
+                                       double z) {
+  Overhang worst{0, 0};
+  double above = 0;
+  bool outside = false;
+  for (std::size_t i = 0; i < mesh.floor.size(); ++i) {
+    above = std::fmax(above, mesh.z[i] - height);
+    if (is_clearly_inside(room, mesh.floor[i]) || geometry::contains(room.outline, mesh.floor[i]) != Containment::outside) continue;
+    const Overhang over = overhang(room, mesh.floor[i]);
+    if (!outside || over.distance > worst.distance) worst = over;
+    outside = true;
+  }
+  if (!outside && above <= 0) return std::nullopt;
+  const std::string where = outside && worst.distance >= above ? fmt::format("{} beyond wall {}", to_text(worst.distance), worst.wall + 1)
+                                                               : fmt::format("{} above the ceiling", to_text(above));
+  return make_error("place.object-outside-room", fmt::format("{} reaches {}", object.name.empty() ? "this object" : object.name, where),
+                    fitting_hint(flat, object, room, height, at, z), object.size_span.source ? object.size_span : object.place.span.source ? object.place.span : object.span);
+}
+
+// The object between file and room: centred, scaled, standing on z = 0, not yet turned; still flat.
+Result<mesh::Mesh> flatten(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room) {
+  mesh::Mesh flat;
+  flat.uv = mesh.uv, flat.triangles = mesh.triangles, flat.material = mesh.material;
+  mesh::ExamineOptions quickly;
+  quickly.crossings = false;
+  const Vector3 middle = standing(mesh::examine(mesh, quickly).centroid, object.up);
+  Vector3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const Vector3& own : mesh.positions) {
+    const Vector3 p = standing(own, object.up);
+    flat.positions.push_back({p.x - middle.x, p.y - middle.y, p.z});
+    const Vector3& q = flat.positions.back();
+    low = {std::fmin(low.x, q.x), std::fmin(low.y, q.y), std::fmin(low.z, q.z)};
+    high = {std::fmax(high.x, q.x), std::fmax(high.y, q.y), std::fmax(high.z, q.z)};
+  }
+  double factor = 1;
+  if (object.size) {
+    const bool along_x = high.x - low.x >= high.y - low.y;
+    const double from = along_x ? low.x : low.y, to = along_x ? high.x : high.y;
+    if (!(to - from > 1e-9 * (high.z - low.z)))
+      return make_error("place.flat-object", fmt::format("{} has no horizontal extent that `size` could set", object.name), "leave `size` out", object.size_span);
+    if (room.space == Space::spherical && *object.size >= std::numbers::pi)
+      return make_error("place.too-large", fmt::format("{} cannot be {} long on a sphere of circumference 2π", object.name, to_text(*object.size)), "", object.size_span);
+    factor = scale_for_size(room.space, object.embedding, from, to, *object.size);
+  }
+  for (Vector3& p : flat.positions) {
+    p = {factor * p.x, factor * p.y, factor * (p.z - low.z)};
+    if (!in_chart(room.space, object.embedding, p))
+      return make_error("place.too-large", fmt::format("{} is too large for this space", object.name.empty() ? "this object" : object.name),
+                        "give it a `size`, its longest horizontal extent", object.size_span.source ? object.size_span : object.span);
+  }
+  return flat;
+}
+
+}  // namespace
+
+double scale_for_size(Space space, scene::Embedding embedding, double low, double high, double size) {
+  const double k = geometry::curvature(space);
+  if (k == 0 || embedding == scene::Embedding::exponential) return size / (high - low);
+  const double t = geometry::tan_k(space, size / 2), a = high / 2, b = low / 2, d = a - b;
+  return 2 * t / (d + std::sqrt(std::fmax(0, d * d - 4 * k * a * b * t * t)));
+}
+
+Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room, double height, const EmbedOptions& options) {
+  Result<geometry::Position> at = locate(object.place, room, height, 0);
+  if (!at) return located(std::move(at).error(), object.span);
+  Result<mesh::Mesh> made = flatten(mesh, object, room);
+  if (!made) return located(std::move(made).error(), object.span);
+  if (room.space != Space::euclidean) {
+    made = mesh::refine(*made, [&](const Vector3& p, const Vector3& q) { return is_too_long(room.space, object.embedding, p, q, options.tolerance); }, options.max_triangles);
+    if (!made) return located(std::move(made).error(), object.span);
+  }
+  mesh::Mesh& flat = *made;
+  PlacedMesh placed;
+  placed.name = object.name;
+  placed.uv = std::move(flat.uv);
+  placed.triangles = std::move(flat.triangles);
+  placed.look.assign(flat.material.begin(), flat.material.end());
+  placed.look.resize(placed.triangles.size(), 0);
+  const geometry::Isometry room_from_object = geometry::translation_to(room.space, at->floor) * geometry::rotation(room.space, object.turn.radians);
+  for (const Vector3& p : flat.positions) {
+    const Point x = room_from_object * embedded(room.space, object.embedding, p);
+    placed.floor.push_back(is_clearly_inside(room, x) ? x : rounded_into(room, x));
+    // A body as high as the room touches the ceiling, whatever the last bit says.
+    const double z = at->z + p.z;
+    placed.z.push_back(z > height && z < height * (1 + 1e-14) ? height : z);
+  }
+  if (auto error = check_inside(placed, flat, object, room, height, at->floor, at->z)) return located({*error}, object.span);
+  placed.pattern_position = std::move(flat.positions);
+  return placed;
+}
+
+}  // namespace orbc::place

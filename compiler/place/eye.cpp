@@ -1,0 +1,209 @@
+#include "compiler/place/eye.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/geometry/chart.h"
+#include "compiler/geometry/predicates.h"
+#include "compiler/place/locate.h"
+#include "compiler/place/placed.h"
+
+namespace orbc::place {
+namespace {
+
+using geometry::Ambient;
+using geometry::Containment;
+using geometry::Point;
+using geometry::Position;
+using geometry::Side;
+using geometry::Vector3;
+using scene::Projection;
+
+constexpr double kPi = std::numbers::pi;
+
+// ---- where the eye stands ---------------------------------------------------------------------------------------------------
+
+// The side of X, or, where it lies exactly on the line, the side of a point moved an infinitesimal way, the same way for all lines: of two triangles that
+// share an edge exactly one holds it (simulation of simplicity, Edelsbrunner and Mücke 1990).
+Side side_of_moved(const Ambient& p, const Ambient& q, const Ambient& x) {
+  Side side = geometry::side_of(p, q, x);
+  if (side == Side::on) side = geometry::side_of(p, q, {0, 1, 0});
+  if (side == Side::on) side = geometry::side_of(p, q, {0, 0, 1});
+  if (side == Side::on) side = geometry::side_of(p, q, {1, 0, 0});
+  return side;
+}
+
+double determinant(const Ambient& a, const Ambient& b, const Ambient& c) {
+  return a.w * (b.x * c.y - b.y * c.x) - a.x * (b.w * c.y - b.y * c.w) + a.y * (b.w * c.x - b.x * c.w);
+}
+
+// Whether the vertical line through the eye meets an odd number of triangles above it, and an odd number below.
+bool is_inside(const PlacedMesh& mesh, const Position& eye) {
+  bool above = false, below = false;
+  for (const mesh::Triangle& t : mesh.triangles) {
+    const Point &p = mesh.floor[t[0]], &q = mesh.floor[t[1]], &r = mesh.floor[t[2]], &x = eye.floor;
+    const Side side = side_of_moved(p, q, x);
+    if (side == Side::on || side_of_moved(q, r, x) != side || side_of_moved(r, p, x) != side) continue;
+    // On S² the cone of the triangle and its opposite both pass the test; the eye's is the one with positive weights.
+    const double a = determinant(q, r, x), b = determinant(r, p, x), c = determinant(p, q, x), sum = a + b + c, whole = determinant(p, q, r);
+    if (!(sum * whole > 0)) continue;
+    const double z = (a * mesh.z[t[0]] + b * mesh.z[t[1]] + c * mesh.z[t[2]]) / sum;
+    (z >= eye.z ? above : below) ^= true;
+  }
+  return above && below;
+}
+
+Diagnostics wrong_place(const PlacedRoom& placed, const Position& eye, const SourceSpan& span) {
+  if (geometry::contains(placed.room.outline, eye.floor) == Containment::on_border)
+    return {make_error("place.eye-in-wall", fmt::format("the eye stands exactly in wall {}", overhang(placed.room, eye.floor).wall + 1), "move it into the room", span)};
+  if (!(eye.z > 0) || !(eye.z < placed.height))
+    return {make_error("place.eye-outside-room", fmt::format("the eye is not between floor and ceiling: its height is {}", to_text(eye.z)),
+                       fmt::format("the room is {} high", to_text(placed.height)), span)};
+  for (const PlacedMesh& part : placed.parts)
+    if ((part.kind == PartKind::object || part.kind == PartKind::frame) && is_inside(part, eye))
+      return {make_error("place.eye-inside-object", fmt::format("the eye stands inside {}", part.name), "move the eye or the object", span)};
+  return {};
+}
+
+// ---- where it looks ---------------------------------------------------------------------------------------------------------
+
+Result<Position> centre_of(const PlacedRoom& placed, const std::string& name, const SourceSpan& span) {
+  std::vector<std::string> known;
+  for (const PlacedMesh& part : placed.parts) {
+    if (part.kind != PartKind::object) continue;
+    known.push_back(part.name);
+    if (part.name != name) continue;
+    // The bounding box in the log chart about the mean of the vertices.
+    Ambient sum{0, 0, 0};
+    for (const Point& p : part.floor) sum = sum + p;
+    const geometry::Isometry room_from_box = geometry::translation_to(placed.room.space, geometry::normalised_point(placed.room.space, sum));
+    const geometry::Isometry box_from_room = geometry::inverse(room_from_box);
+    Vector3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    for (std::size_t i = 0; i < part.floor.size(); ++i) {
+      const std::complex<double> p = geometry::log_from_point(placed.room.space, box_from_room * part.floor[i]);
+      low = {std::fmin(low.x, p.real()), std::fmin(low.y, p.imag()), std::fmin(low.z, part.z[i])};
+      high = {std::fmax(high.x, p.real()), std::fmax(high.y, p.imag()), std::fmax(high.z, part.z[i])};
+    }
+    const Vector3 middle = 0.5 * (low + high);
+    return Position{room_from_box * geometry::point_from_log(placed.room.space, {middle.x, middle.y}), middle.z};
+  }
+  const std::string nearest = nearest_word(name, known);
+  return make_error("place.no-such-object", fmt::format("there is no object `{}` to look at", name), nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest), span);
+}
+
+Vector3 towards(const geometry::Isometry& room_from_eye, double eye_z, const Position& target) {
+  const std::complex<double> p = geometry::log_from_point(room_from_eye.space, geometry::inverse(room_from_eye) * target.floor);
+  return {p.real(), p.imag(), target.z - eye_z};
+}
+
+// Sets the camera's axes; looking straight up or down keeps the azimuth 0 for what is right.
+void look_along(Eye& eye, const Vector3& direction, double azimuth_if_vertical) {
+  eye.forward = geometry::normalised(direction);
+  const double flat = std::hypot(eye.forward.x, eye.forward.y);
+  if (flat > 1e-12) {
+    eye.right = {eye.forward.y / flat, -eye.forward.x / flat, 0};
+  } else {
+    eye.forward = {0, 0, direction.z > 0 ? 1.0 : -1.0};
+    eye.right = {std::sin(azimuth_if_vertical), -std::cos(azimuth_if_vertical), 0};
+  }
+  eye.up = geometry::cross(eye.right, eye.forward);
+}
+
+// The default: the centre of the room, or, from there, the middle of the longest wall.
+Vector3 default_direction(const PlacedRoom& placed, const Eye& eye) {
+  const Vector3 to_centre = towards(eye.room_from_eye, eye.z, {Point{}, eye.z});
+  if (geometry::length(to_centre) > 1e-9 || placed.room.walls.empty()) return to_centre;
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < placed.room.walls.size(); ++i)
+    if (placed.room.walls[i].length > placed.room.walls[longest].length * (1 + 1e-9)) longest = i;
+  return towards(eye.room_from_eye, eye.z, {room::point_on_wall(placed.room, static_cast<int>(longest), placed.room.walls[longest].length / 2), eye.z});
+}
+
+Result<Vector3> direction_of(const scene::Camera& camera, const PlacedRoom& placed, const Eye& eye) {
+  const auto& look_at = camera.look_at;
+  if (const auto* direction = std::get_if<scene::LookDirection>(&look_at.value)) {
+    const double a = direction->azimuth.radians, e = direction->elevation.radians;
+    return Vector3{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
+  }
+  Position target{Point{}, eye.z};
+  if (const auto* object = std::get_if<scene::LookAtObject>(&look_at.value)) {
+    if (object->name.empty()) return default_direction(placed, eye);
+    Result<Position> centre = centre_of(placed, object->name, look_at.span);
+    if (!centre) return std::move(centre).error();
+    target = *centre;
+  } else {
+    const auto& place = std::get<scene::Place>(look_at.value);
+    if (std::holds_alternative<scene::AtCentre>(place.floor) && !place.z && !look_at.span.source) return default_direction(placed, eye);
+    Result<Position> there = locate(place, placed.room, placed.height, eye.z);
+    if (!there) return located(std::move(there).error(), look_at.span);
+    target = *there;
+  }
+  const Vector3 direction = towards(eye.room_from_eye, eye.z, target);
+  if (!(geometry::length(direction) > 1e-12)) return make_error("place.looks-at-itself", "the camera looks at the point where it stands", "move it, or give another `look_at`", look_at.span);
+  return direction;
+}
+
+}  // namespace
+
+Vector3 direction_through(const Eye& eye, double x, double y) {
+  const double u = 2 * x / eye.width - 1, v = 1 - 2 * y / eye.height, aspect = static_cast<double>(eye.height) / eye.width;
+  if (eye.projection == Projection::perspective) {
+    const double t = std::tan(eye.fov.radians / 2);
+    return geometry::normalised(eye.forward + (u * t) * eye.right + (v * aspect * t) * eye.up);
+  }
+  if (eye.projection == Projection::panorama) {
+    const double a = kPi * u, e = kPi / 2 * v;
+    return (std::cos(e) * std::cos(a)) * eye.forward + (std::cos(e) * std::sin(a)) * eye.right + std::sin(e) * eye.up;
+  }
+  const double a = eye.fov.radians / 2 * u, height = v * aspect * eye.fov.radians / 2;
+  return geometry::normalised(std::cos(a) * eye.forward + std::sin(a) * eye.right + height * eye.up);
+}
+
+std::optional<std::array<double, 2>> pixel_of(const Eye& eye, const Vector3& direction) {
+  const double f = dot(direction, eye.forward), r = dot(direction, eye.right), u = dot(direction, eye.up);
+  const double w = eye.width, h = eye.height;
+  if (eye.projection == Projection::perspective) {
+    if (!(f > 0)) return std::nullopt;
+    const double t = std::tan(eye.fov.radians / 2) * f;
+    return std::array<double, 2>{w / 2 * (1 + r / t), h / 2 - w / 2 * u / t};
+  }
+  const double azimuth = std::atan2(r, f), flat = std::hypot(r, f);
+  if (eye.projection == Projection::panorama) return std::array<double, 2>{w * (azimuth / (2 * kPi) + 0.5), h * (0.5 - std::atan2(u, flat) / kPi)};
+  if (!(flat > 0)) return std::nullopt;
+  return std::array<double, 2>{w * (azimuth / eye.fov.radians + 0.5), h / 2 - w * (u / flat) / eye.fov.radians};
+}
+
+double pixels_per_radian(const Eye& eye) {
+  if (eye.projection == Projection::perspective) return eye.width / 2.0 / std::tan(eye.fov.radians / 2);
+  return eye.width / (eye.projection == Projection::panorama ? 2 * kPi : eye.fov.radians);
+}
+
+Result<Eye> make_eye(const scene::Scene& scene, const PlacedRoom& placed) {
+  const scene::Camera& camera = scene.camera;
+  const SourceSpan& span = camera.place.span.source ? camera.place.span : camera.span;
+  Result<Position> at = locate(camera.place, placed.room, placed.height, placed.height / 2);
+  if (!at) {
+    Diagnostics errors = located(std::move(at).error(), span);
+    for (Diagnostic& error : errors)
+      if (error.code == "place.outside-room") error.code = "place.eye-outside-room";
+    return errors;
+  }
+  Diagnostics wrong = wrong_place(placed, *at, span);
+  if (has_error(wrong)) return wrong;
+  Eye eye;
+  eye.room_from_eye = geometry::translation_to(placed.room.space, at->floor);
+  eye.z = at->z;
+  eye.projection = camera.projection;
+  eye.fov = camera.fov;
+  eye.width = camera.size[0], eye.height = camera.size[1];
+  Result<Vector3> direction = direction_of(camera, placed, eye);
+  if (!direction) return std::move(direction).error();
+  const auto* angles = std::get_if<scene::LookDirection>(&camera.look_at.value);
+  look_along(eye, *direction, angles ? angles->azimuth.radians : 0);
+  return eye;
+}
+
+}  // namespace orbc::place

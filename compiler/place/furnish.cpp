@@ -1,0 +1,230 @@
+#include "compiler/place/furnish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "compiler/mesh/examine.h"
+#include "compiler/mesh/image.h"
+#include "compiler/mesh/primitives.h"
+#include "compiler/place/beams.h"
+#include "compiler/place/locate.h"
+#include "compiler/place/wrap.h"
+
+namespace orbc::place {
+namespace {
+
+using scene::Material;
+using scene::Pattern;
+
+/// The room under construction: errors and warnings are collected, so that an author sees all at once.
+struct Builder {
+  const scene::Scene& scene;
+  const room::Room& room;
+  const FurnishOptions& options;
+  PlacedRoom placed;
+  Diagnostics errors, warnings;
+  std::map<std::string, int> texture_of_path;
+  std::map<std::string, mesh::Mesh> mesh_of_path;
+
+  void fail(Diagnostics diagnostics, const SourceSpan& span) {
+    for (Diagnostic& d : located(std::move(diagnostics), span)) errors.push_back(std::move(d));
+  }
+
+  [[nodiscard]] std::string path_of(const std::string& written) const {
+    return scene.folder.empty() || (!written.empty() && written[0] == '/') ? written : scene.folder + "/" + written;
+  }
+
+  int texture(const scene::Sourced<std::string>& written) {
+    const auto known = texture_of_path.find(written.value);
+    if (known != texture_of_path.end()) return known->second;
+    Result<mesh::Image> image = mesh::load_image(path_of(written.value), options.load.images);
+    int index = -1;
+    if (image) {
+      index = static_cast<int>(placed.textures.size());
+      placed.textures.push_back(*std::move(image));
+    } else {
+      fail(std::move(image).error(), written.span);
+    }
+    return texture_of_path[written.value] = index;
+  }
+
+  std::uint16_t add(const Look& look) {
+    if (placed.looks.size() == 0xffff) errors.push_back(make_error("place.too-many-looks", "this scene has more than 65535 different surfaces", "leave some objects out"));
+    if (placed.looks.size() < 0xffff + 1) placed.looks.push_back(look);
+    return static_cast<std::uint16_t>(placed.looks.size() - 1);
+  }
+
+  // The looks of a material by the tags that panels carry: 0, and 1 for the second colour of a checker.
+  std::vector<std::uint16_t> looks_of(const Material& material) {
+    Look look{material.color, -1, material};
+    if (material.pattern == Pattern::texture) look.texture = texture(material.texture);
+    std::vector<std::uint16_t> looks{add(look)};
+    look.color = material.second;
+    if (material.pattern == Pattern::checker) looks.push_back(add(look));
+    return looks;
+  }
+
+  void add_part(PlacedMesh mesh, const std::vector<std::uint16_t>& looks, const SourceSpan& span) {
+    bool textured = false;
+    for (std::uint16_t& look : mesh.look) {
+      look = looks[std::min<std::size_t>(look, looks.size() - 1)];
+      textured = textured || placed.looks[look].texture >= 0;
+    }
+    if (!textured) mesh.uv.clear();
+    Result<PlacedMesh> done = wrapped(room.space, std::move(mesh));
+    if (!done) return fail(std::move(done).error(), span);
+    placed.parts.push_back(*std::move(done));
+  }
+};
+
+// ---- the shell --------------------------------------------------------------------------------------------------------------
+
+void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
+  const scene::RoomSpec& spec = builder.scene.room;
+  Shell shell;
+  if (!spec.floor.mirror) shell.floor = spec.floor.material;
+  if (!spec.ceiling.mirror) shell.ceiling = spec.ceiling.material;
+  for (std::size_t i = 0; i < builder.room.walls.size(); ++i) shell.walls.push_back(i < spec.walls.size() ? spec.walls[i].material : Material{});
+  PanelOptions options = builder.options.panels;
+  const auto measure = [&](const Material& material) {
+    if (material.pattern != Pattern::texture) return;
+    const int index = builder.texture(material.texture);
+    if (index >= 0) options.texture_size = std::max({options.texture_size, builder.placed.textures[index].width, builder.placed.textures[index].height});
+  };
+  if (shell.floor) measure(*shell.floor);
+  if (shell.ceiling) measure(*shell.ceiling);
+  for (const Material& wall : shell.walls) measure(wall);
+  Result<std::vector<PlacedMesh>> panels = make_panels(builder.room, spec.height, shell, mirrors.mirrors, options);
+  if (!panels) return builder.fail(std::move(panels).error(), spec.span);
+  for (PlacedMesh& panel : *panels) {
+    const Material& material = panel.kind == PartKind::floor ? *shell.floor : panel.kind == PartKind::ceiling ? *shell.ceiling : shell.walls[panel.wall];
+    const std::vector<std::uint16_t> looks = builder.looks_of(material);
+    builder.add_part(std::move(panel), looks, material.span);
+  }
+}
+
+void build_frames(Builder& builder, const ClippedMirrors& mirrors) {
+  std::vector<FrameSpec> specs;
+  std::vector<const scene::Frame*> frames;
+  for (std::size_t i = 0; i < mirrors.mirrors.size(); ++i) {
+    const PlacedMirror& m = mirrors.mirrors[i];
+    if (m.wall < 0 || !mirrors.sources[i]->frame) continue;
+    specs.push_back({m.wall, {m.span[0], m.span[1]}, {m.height[0], m.height[1]}, mirrors.sources[i]->frame->width});
+    frames.push_back(&*mirrors.sources[i]->frame);
+  }
+  std::vector<PlacedMesh> meshes = make_frames(builder.room, builder.scene.room.height, specs);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (meshes[i].triangles.empty()) continue;
+    meshes[i].name = fmt::format("frame on wall {}", specs[i].wall + 1);
+    const std::vector<std::uint16_t> looks = builder.looks_of(frames[i]->material);
+    builder.add_part(std::move(meshes[i]), looks, frames[i]->material.span);
+  }
+}
+
+// ---- objects ----------------------------------------------------------------------------------------------------------------
+
+const mesh::Mesh* load(Builder& builder, const scene::Sourced<std::string>& path) {
+  const auto known = builder.mesh_of_path.find(path.value);
+  if (known != builder.mesh_of_path.end()) return known->second.triangles.empty() ? nullptr : &known->second;
+  Result<mesh::Loaded> loaded = mesh::load_mesh(builder.path_of(path.value), builder.options.load);
+  mesh::Mesh& mesh = builder.mesh_of_path[path.value];
+  if (!loaded) {
+    builder.fail(std::move(loaded).error(), path.span);
+    return nullptr;
+  }
+  mesh = std::move(loaded->mesh);
+  Diagnostics notes = std::move(loaded->warnings);
+  for (Diagnostic& d : mesh::warnings_of(mesh::examine(mesh), path.value)) notes.push_back(std::move(d));
+  for (Diagnostic& d : located(std::move(notes), path.span)) builder.warnings.push_back(std::move(d));
+  return &mesh;
+}
+
+mesh::Mesh primitive(const scene::Object& object) {
+  if (const auto* s = std::get_if<scene::SphereSpec>(&object.shape)) return mesh::make_sphere(s->radius);
+  if (const auto* c = std::get_if<scene::CylinderSpec>(&object.shape)) return mesh::make_cylinder(c->radius, c->height);
+  if (const auto* b = std::get_if<scene::BoxSpec>(&object.shape)) return mesh::make_box(b->size);
+  if (const auto* t = std::get_if<scene::TorusSpec>(&object.shape)) return mesh::make_torus(t->radius, t->tube);
+  if (const auto* k = std::get_if<scene::TorusKnotSpec>(&object.shape)) return mesh::make_torus_knot(k->p, k->q, k->radius, k->tube);
+  return {};
+}
+
+// The looks of an object's mesh: the author's material, else what the file says.
+std::vector<std::uint16_t> looks_of(Builder& builder, const scene::Object& object, const mesh::Mesh& mesh, PlacedMesh& placed) {
+  if (object.material) {
+    Material material = *object.material;
+    if (material.pattern == Pattern::texture && placed.uv.empty()) {
+      builder.warnings.push_back(make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown in its plain colour", object.name),
+                                              "give it a `color`, or export the mesh with uv", material.span));
+      material.pattern = Pattern::plain;
+    }
+    // A checker on an object is a solid one: the cell that holds the middle of the triangle.
+    for (std::size_t i = 0; i < placed.look.size(); ++i) {
+      placed.look[i] = 0;
+      if (material.pattern != Pattern::checker) continue;
+      geometry::Vector3 middle;
+      for (const std::uint32_t v : placed.triangles[i]) middle = middle + (1.0 / 3) * placed.pattern_position[v];
+      const double cells = std::floor(middle.x / material.cell) + std::floor(middle.y / material.cell) + std::floor(middle.z / material.cell);
+      placed.look[i] = std::fmod(cells, 2) != 0 ? 1 : 0;
+    }
+    return builder.looks_of(material);
+  }
+  std::vector<std::uint16_t> looks;
+  const int first = static_cast<int>(builder.placed.textures.size());
+  builder.placed.textures.insert(builder.placed.textures.end(), mesh.textures.begin(), mesh.textures.end());
+  for (const mesh::Mesh::Look& own : mesh.looks) {
+    Look look;
+    look.color = look.material.color = {own.color[0], own.color[1], own.color[2]};
+    look.texture = own.texture >= 0 && !placed.uv.empty() ? first + own.texture : -1;
+    looks.push_back(builder.add(look));
+  }
+  if (looks.empty()) looks.push_back(builder.add({}));
+  return looks;
+}
+
+void build_beam(Builder& builder, const scene::Object& object, const scene::BeamSpec& beam) {
+  const double height = builder.scene.room.height;
+  Result<geometry::Position> from = locate(beam.from, builder.room, height, 0), to = locate(beam.to, builder.room, height, 0);
+  if (!from) builder.fail(std::move(from).error(), object.span);
+  if (!to) builder.fail(std::move(to).error(), object.span);
+  if (!from || !to) return;
+  Result<PlacedMesh> mesh = make_beam(builder.room, height, *from, *to, beam.width);
+  if (!mesh) return builder.fail(std::move(mesh).error(), object.span);
+  mesh->name = object.name;
+  const std::vector<std::uint16_t> looks = object.material ? builder.looks_of(*object.material) : std::vector<std::uint16_t>{builder.add({})};
+  builder.add_part(*std::move(mesh), looks, object.span);
+}
+
+void build_object(Builder& builder, const scene::Object& object) {
+  if (const auto* beam = std::get_if<scene::BeamSpec>(&object.shape)) return build_beam(builder, object, *beam);
+  mesh::Mesh own;
+  const mesh::Mesh* mesh = &own;
+  if (const auto* file = std::get_if<scene::MeshFile>(&object.shape)) mesh = load(builder, file->path);
+  else own = primitive(object);
+  if (!mesh) return;
+  Result<PlacedMesh> placed = place_object(*mesh, object, builder.room, builder.scene.room.height, builder.options.embed);
+  if (!placed) return builder.fail(std::move(placed).error(), object.span);
+  const std::vector<std::uint16_t> looks = looks_of(builder, object, *mesh, *placed);
+  builder.add_part(*std::move(placed), looks, object.span);
+}
+
+}  // namespace
+
+Result<Furnished> furnish(const scene::Scene& scene, const room::Room& room, const FurnishOptions& options) {
+  Builder builder{scene, room, options, {}, {}, {}, {}, {}};
+  builder.placed.room = room;
+  builder.placed.height = scene.room.height;
+  ClippedMirrors mirrors = clipped_mirrors(scene.room, room);
+  builder.placed.mirrors = mirrors.mirrors;
+  builder.warnings = std::move(mirrors.warnings);
+  build_shell(builder, mirrors);
+  build_frames(builder, mirrors);
+  for (const scene::Object& object : scene.objects) build_object(builder, object);
+  if (has_error(builder.errors)) return std::move(builder.errors);
+  return Furnished{std::move(builder.placed), std::move(builder.warnings)};
+}
+
+}  // namespace orbc::place

@@ -1,0 +1,189 @@
+// A point at given distances from two walls: walls are covectors l with value sinκ(distance) at X. Their vectors L = (κ l_w, l_x, l_y) span a
+// plane in the form B(U, V) = κ U_w V_w + U_x V_x + U_y V_y, so X = αL_a + βL_b + tN with N orthogonal to both; α, β follow from the two
+// distances and t from B(X, X) = κ. Both signs of t are points of the space; the one in the room is meant.
+#include "compiler/place/locate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "compiler/geometry/chart.h"
+#include "compiler/geometry/predicates.h"
+
+namespace orbc::place {
+namespace {
+
+using geometry::Ambient;
+using geometry::Containment;
+using geometry::Line;
+using geometry::Point;
+using geometry::Space;
+
+Diagnostic outside_room(const room::Room& room, const Point& x, const SourceSpan& span) {
+  const Overhang over = overhang(room, x);
+  const double azimuth = std::atan2(x.y, x.x), r = std::abs(geometry::log_from_point(room.space, x));
+  return make_error("place.outside-room", fmt::format("this place lies {} beyond wall {}", to_text(over.distance), over.wall + 1),
+                    fmt::format("it is {} from the centre; in that direction ({:.4g}deg) the room ends at {}", to_text(r),
+                                azimuth * 180 / std::numbers::pi, to_text(reach(room, azimuth))),
+                    span);
+}
+
+Diagnostic not_finite(const SourceSpan& span) {
+  return make_error("place.outside-room", "this place has a coordinate that is no number", "", span);
+}
+
+Result<Point> polar(const room::Room& room, double r, double radians, const SourceSpan& span) {
+  if (!std::isfinite(r) || !std::isfinite(radians)) return not_finite(span);
+  if (room.space == Space::hyperbolic && std::fabs(r) > 300)
+    return make_error("place.outside-room", fmt::format("this place is {} from the centre, far outside the room", to_text(r)),
+                      fmt::format("in that direction the room ends at {}", to_text(reach(room, radians))), span);
+  return geometry::point_from_log(room.space, std::polar(std::fabs(r), r < 0 ? radians + std::numbers::pi : radians));
+}
+
+Result<Point> from_disk(const room::Room& room, std::complex<double> z, const SourceSpan& span) {
+  if (!std::isfinite(z.real()) || !std::isfinite(z.imag())) return not_finite(span);
+  if (room.space == Space::hyperbolic && std::norm(z) >= 1 - 1e-12)
+    return make_error("place.outside-disk", fmt::format("the point ({:.6g}, {:.6g}) is not inside the unit disk", z.real(), z.imag()),
+                      "places in the disk chart of the hyperbolic plane satisfy x² + y² < 1", span);
+  return geometry::point_from_disk(room.space, z);
+}
+
+Result<Point> toward(const room::Room& room, const scene::AtToward& at, const SourceSpan& span) {
+  const int count = static_cast<int>(at.corner ? room.corners.size() : room.walls.size());
+  if (at.number < 1 || at.number > count) {
+    const char* what = at.corner ? "corner" : "wall";
+    return make_error(at.corner ? "place.no-such-corner" : "place.no-such-wall",
+                      fmt::format("there is no {} {} in this room", what, at.number),
+                      count == 0 ? fmt::format("this room has no {}s", what) : fmt::format("{}s are numbered from 1 to {}", what, count), span);
+  }
+  const int i = at.number - 1;
+  const Point goal = at.corner ? room.corners[i].at : room::point_on_wall(room, i, room.walls[i].length / 2);
+  return polar(room, at.distance, std::atan2(goal.y, goal.x), span);
+}
+
+// The points at signed distances (da, db) from the lines a and b: none, one or two.
+std::vector<Point> at_distances(Space space, const Line& a, const Line& b, double da, double db) {
+  const double k = geometry::curvature(space), va = geometry::sin_k(space, da), vb = geometry::sin_k(space, db);
+  if (space == Space::euclidean) {
+    const double det = a.x * b.y - a.y * b.x, p = va - a.w, q = vb - b.w;
+    if (std::fabs(det) < 1e-14) return {};
+    return {Point{1, (p * b.y - q * a.y) / det, (q * a.x - p * b.x) / det}};
+  }
+  const double c = k * a.w * b.w + a.x * b.x + a.y * b.y, det = 1 - c * c;
+  if (std::fabs(det) < 1e-14) return {};
+  const double alpha = (va - c * vb) / det, beta = (vb - c * va) / det;
+  const Ambient base{k * (alpha * a.w + beta * b.w), alpha * a.x + beta * b.x, alpha * a.y + beta * b.y};
+  const Ambient n{a.x * b.y - a.y * b.x, a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w};
+  const auto form = [k](const Ambient& v) { return k * v.w * v.w + v.x * v.x + v.y * v.y; };
+  const double t2 = (k - form(base)) / form(n);
+  if (!(t2 >= -1e-14)) return {};
+  const double t = std::sqrt(std::fmax(0, t2));
+  std::vector<Point> points;
+  for (const double sign : {1.0, -1.0}) {
+    const Ambient v = base + (sign * t) * n;
+    if (space == Space::spherical || v.w > 0) points.push_back(geometry::normalised_point(space, v));
+  }
+  return points;
+}
+
+Result<Point> between_walls(const room::Room& room, const scene::AtWalls& at, const SourceSpan& span) {
+  const int count = static_cast<int>(room.walls.size());
+  for (const int wall : at.walls)
+    if (wall < 1 || wall > count)
+      return make_error("place.no-such-wall", fmt::format("there is no wall {} in this room", wall),
+                        fmt::format("walls are numbered from 1 to {}", count), span);
+  const auto none = [&](const char* why) {
+    return make_error("place.no-such-point",
+                      fmt::format("no point is {} from wall {} and {} from wall {}", to_text(at.distances[0]), at.walls[0],
+                                  to_text(at.distances[1]), at.walls[1]),
+                      why, span);
+  };
+  if (at.walls[0] == at.walls[1]) return none("name two different walls");
+  if (!std::isfinite(at.distances[0]) || !std::isfinite(at.distances[1])) return not_finite(span);
+  const int i = at.walls[0] - 1, j = at.walls[1] - 1;
+  if (at.distances[0] == 0 && at.distances[1] == 0 && !room.corners.empty()) {
+    // The corner itself, as it is stored, so that it is on the border by exact signs.
+    if (count == 2 || (i + 1) % count == j) return room.corners[j].at;
+    if ((j + 1) % count == i) return room.corners[i].at;
+  }
+  const std::vector<Point> points = at_distances(room.space, room.walls[i].line, room.walls[j].line, at.distances[0], at.distances[1]);
+  if (points.empty()) return none("walls that do not meet leave room only for some pairs of distances");
+  const Point* best = nullptr;
+  for (const Point& p : points) {
+    const bool inside = overhang(room, p).distance <= 1e-12;
+    const bool best_inside = best && overhang(room, *best).distance <= 1e-12;
+    if (!best || (inside && !best_inside) || (inside == best_inside && p.w * geometry::curvature(room.space) > best->w * geometry::curvature(room.space) + 1e-12))
+      best = &p;
+  }
+  return *best;
+}
+
+Result<Point> unchecked(const scene::Place& place, const room::Room& room) {
+  if (const auto* at = std::get_if<scene::AtDisk>(&place.floor)) return from_disk(room, at->z, place.span);
+  if (const auto* at = std::get_if<scene::AtPolar>(&place.floor)) return polar(room, at->r, at->angle.radians, place.span);
+  if (const auto* at = std::get_if<scene::AtToward>(&place.floor)) return toward(room, *at, place.span);
+  if (const auto* at = std::get_if<scene::AtWalls>(&place.floor)) return between_walls(room, *at, place.span);
+  return Point{};
+}
+
+}  // namespace
+
+std::string to_text(double length) { return fmt::format("{:.4g}", length); }
+
+double reach(const room::Room& room, double azimuth) {
+  // On the ray cosκ(r)·O + sinκ(r)·(0, d) the wall's value vanishes at tanκ(r) = −l_w/(l·d).
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const room::Wall& wall : room.walls) {
+    const double towards = -(wall.line.x * std::cos(azimuth) + wall.line.y * std::sin(azimuth));
+    double r = std::numeric_limits<double>::infinity();
+    if (room.space == Space::spherical) r = std::atan2(wall.line.w, towards);
+    else if (towards > 0 && (room.space == Space::euclidean || wall.line.w < towards)) r = geometry::atan_k(room.space, wall.line.w / towards);
+    if (r >= 0) nearest = std::fmin(nearest, r);
+  }
+  return nearest;
+}
+
+Overhang overhang(const room::Room& room, const Point& x) {
+  Overhang worst{0, -std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < room.walls.size(); ++i) {
+    const double beyond = -geometry::signed_distance(room.space, room.walls[i].line, x);
+    if (beyond > worst.distance) worst = {static_cast<int>(i), beyond};
+  }
+  return worst;
+}
+
+Point rounded_into(const room::Room& room, const Point& x) {
+  if (geometry::contains(room.outline, x) != Containment::outside) return x;
+  // Steps towards the centre, which lies inside: 2⁻⁵³ to 2⁻⁴⁶ of the coordinates, which is what constructing a point costs.
+  for (double step = 0x1p-53; step <= 0x1p-46; step *= 2) {
+    const Point p = geometry::normalised_point(room.space, {x.w + step, x.x - step * x.x, x.y - step * x.y});
+    if (geometry::contains(room.outline, p) != Containment::outside) return p;
+  }
+  return x;
+}
+
+Result<Point> locate(const scene::Place& place, const room::Room& room) {
+  Result<Point> point = unchecked(place, room);
+  if (!point) return point;
+  const Point p = rounded_into(room, *point);
+  if (geometry::contains(room.outline, p) == Containment::outside) return outside_room(room, p, place.span);
+  return p;
+}
+
+Result<geometry::Position> locate(const scene::Place& place, const room::Room& room, double height, double default_z) {
+  Result<Point> point = locate(place, room);
+  if (!point) return std::move(point).error();
+  const double z = place.z.value_or(default_z);
+  if (!(z >= 0) || !(z <= height)) {
+    const bool low = z < 0;
+    return make_error("place.outside-room",
+                      fmt::format("this place lies {} {}", to_text(low ? -z : z - height), low ? "under the floor" : "above the ceiling"),
+                      fmt::format("the room is {} high", to_text(height)), place.span);
+  }
+  return geometry::Position{*point, z};
+}
+
+}  // namespace orbc::place

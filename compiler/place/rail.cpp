@@ -1,0 +1,60 @@
+#include "compiler/place/rail.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace orbc::place {
+
+using geometry::Point;
+using geometry::Space;
+
+double arc_on_wall(const room::Room& room, int index, const Point& x) {
+  const room::Wall& wall = room.walls[index];
+  if (room.space != Space::spherical) return std::fmin(geometry::distance(room.space, wall.start, x), wall.length);
+  const double c = wall.start.w * x.w + wall.start.x * x.x + wall.start.y * x.y;
+  double s = std::atan2(wall.along.w * x.w + wall.along.x * x.x + wall.along.y * x.y, c);
+  if (s < -1e-9) s += 2 * std::numbers::pi;
+  return std::fmin(std::fmax(s, 0), wall.length);
+}
+
+Rail::Rail(const room::Room& room, int wall) : room_(room), wall_(wall) {
+  const std::size_t n = room.outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (room.outline_wall[i] != wall) continue;
+    const double length = room.walls[wall].length;
+    const auto place = [&](const Point& x, bool is_end) {
+      double s = arc_on_wall(room, wall, x);
+      if (s < 1e-9) s = is_end ? length : 0;
+      if (length - s < 1e-9) s = length;
+      if (points_.try_emplace(s, x).second) given_.push_back(s);
+    };
+    place(room.outline[i], false);
+    place(room.outline[(i + 1) % n], true);
+  }
+}
+
+const double* Rail::near(double s) const {
+  const auto after = points_.lower_bound(s - 1e-9);
+  return after != points_.end() && after->first <= s + 1e-9 ? &after->first : nullptr;
+}
+
+double Rail::key(double s) {
+  if (const double* known = near(s)) return *known;
+  points_.emplace(s, room::point_on_wall(room_, wall_, s));
+  return s;
+}
+
+double Rail::key(const Point& x) {
+  const double s = arc_on_wall(room_, wall_, x);
+  if (const double* known = near(s)) return *known;
+  points_.emplace(s, x);
+  return s;
+}
+
+std::vector<Rail> make_rails(const room::Room& room) {
+  std::vector<Rail> rails;
+  for (std::size_t i = 0; i < room.walls.size(); ++i) rails.emplace_back(room, static_cast<int>(i));
+  return rails;
+}
+
+}  // namespace orbc::place
