@@ -53,7 +53,7 @@ Hit closest_triangle(const TraceScene& scene, const Ray& ray, double max_length)
 }
 
 bool occluded(const TraceScene& scene, const Ray& ray, double max_length) {
-  return closest_triangle(scene, ray, max_length).target == Target::triangle;
+  return scene.objects->occluded(ray, std::min(max_length, longest_in_room(scene, ray)));
 }
 
 }  // namespace orbc::trace

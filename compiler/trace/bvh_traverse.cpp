@@ -1,0 +1,310 @@
+// A ray through the tree: the SIMD kernels, compiled once per instruction set by Highway and chosen at run time for a whole call.
+// Float decides only what surely misses; every triangle left is put to `intersect` in double (see bvh.h).
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "compiler/trace/bvh_traverse.cpp"
+// No gain was measured from AVX-512 (performance study: AVX2 and AVX-512 builds are equal within noise).
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/trace/bvh.h"
+#include "compiler/trace/chart_ray.h"
+#include "compiler/trace/walk.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace orbc::trace::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using geometry::Space;
+using D = hn::CappedTag<float, 8>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+/// Odd polynomial, increasing on all of ℝ: no clamp is needed however far a box lies.
+template <int kTerms>
+HWY_INLINE V odd_polynomial(const Chart& chart, V a, V shift) {
+  const D d;
+  if constexpr (kTerms == 1) return hn::Add(a, shift);
+  const V y = hn::Mul(a, a);
+  V p = hn::Set(d, chart.poly[kTerms - 1]);
+  for (int k = kTerms - 2; k >= 0; --k) p = hn::MulAdd(p, y, hn::Set(d, chart.poly[k]));
+  return hn::MulAdd(a, p, shift);
+}
+
+/// Which of a node's boxes the ray may touch between `start` and `end`, and where it enters them.
+template <int kTerms>
+HWY_INLINE std::uint32_t touched(const Node8& node, const Chart& chart, const ChartRay& ray, float end, float* HWY_RESTRICT enters) {
+  const D d;
+  std::uint32_t bits = 0;
+  const V error = hn::Set(d, chart.poly_error), minus_error = hn::Set(d, -chart.poly_error);
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+    V near = hn::Set(d, ray.start), far = hn::Set(d, end);
+    for (int a = 0; a < 2; ++a) {
+      const V scale = hn::Set(d, ray.scale[a]);
+      near = hn::Max(near, hn::MulSub(hn::Load(d, node.bounds[a][ray.near[a]] + i), scale, hn::Set(d, ray.near_offset[a])));
+      far = hn::Min(far, hn::MulSub(hn::Load(d, node.bounds[a][1 - ray.near[a]] + i), scale, hn::Set(d, ray.far_offset[a])));
+    }
+    const V slope = hn::Set(d, ray.slope);
+    const V low = hn::MulSub(hn::Load(d, node.bounds[2][ray.near[2]] + i), slope, hn::Set(d, ray.near_height));
+    const V high = hn::MulSub(hn::Load(d, node.bounds[2][1 - ray.near[2]] + i), slope, hn::Set(d, ray.far_height));
+    near = hn::Max(near, odd_polynomial<kTerms>(chart, low, minus_error));
+    far = hn::Min(far, odd_polynomial<kTerms>(chart, high, error));
+    hn::Store(near, d, enters + i);
+    std::uint8_t mask[8] = {};
+    hn::StoreMaskBits(d, hn::Le(near, far), mask);
+    bits |= static_cast<std::uint32_t>(mask[0]) << i;
+  }
+  return bits;
+}
+
+/// A corner of eight triangles over the ray.
+struct Corner {
+  V h, t, z_by_w, by_w;
+};
+
+struct Cut {
+  V t, a, w, t_error, a_error;      ///< t, argument of tanκ, 1/w of an edge's crossing, and bounds of the errors of the first two
+};
+
+HWY_INLINE Corner pick(M first, const Corner& a, const Corner& b) {
+  return {hn::IfThenElse(first, a.h, b.h), hn::IfThenElse(first, a.t, b.t), hn::IfThenElse(first, a.z_by_w, b.z_by_w),
+          hn::IfThenElse(first, a.by_w, b.by_w)};
+}
+
+/// The Padé approximant [5/4] of tanκ, as in chart.h.
+HWY_INLINE V pade(V kappa, V a) {
+  const D d;
+  const V y = hn::Mul(a, a);
+  const V over = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -105.0f), kappa, y), hn::Set(d, 945.0f));
+  const V under = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -420.0f), kappa, hn::Mul(hn::Set(d, 15.0f), y)), hn::Set(d, 945.0f));
+  return hn::Div(hn::Mul(a, over), under);
+}
+
+struct LeafConstants {
+  float height_bound, largest_w;
+};
+
+template <Space kSpace>
+HWY_INLINE Cut cut_edge(const ChartRay& ray, const LeafConstants& leaf, const Corner& i, const Corner& j) {
+  const D d;
+  const V hi = hn::Abs(i.h), hj = hn::Abs(j.h);
+  const V by_sum = hn::Div(hn::Set(d, 1.0f), hn::Add(hi, hj));
+  const V wi = hn::Mul(hj, by_sum), wj = hn::Mul(hi, by_sum);
+  const V weight_error = hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum);
+  Cut cut;
+  cut.t = hn::MulAdd(wi, i.t, hn::Mul(wj, j.t));
+  cut.t_error = hn::MulAdd(weight_error, hn::Abs(hn::Sub(i.t, j.t)), hn::Set(d, ray.t_error));
+  V z = hn::MulAdd(wi, i.z_by_w, hn::Mul(wj, j.z_by_w));
+  V dz = hn::Abs(hn::Sub(i.z_by_w, j.z_by_w));
+  if constexpr (kSpace != Space::euclidean) {
+    cut.w = hn::MulAdd(wi, i.by_w, hn::Mul(wj, j.by_w));
+    z = hn::Div(z, cut.w);
+    dz = hn::Mul(hn::Set(d, leaf.largest_w), hn::MulAdd(hn::Set(d, leaf.height_bound), hn::Abs(hn::Sub(i.by_w, j.by_w)), dz));
+  } else {
+    cut.w = hn::Set(d, 1.0f);
+  }
+  cut.a = hn::MulSub(z, hn::Set(d, ray.slope), hn::Set(d, ray.height));
+  cut.a_error = hn::MulAdd(hn::Mul(weight_error, dz), hn::Set(d, std::fabs(ray.slope)), hn::Set(d, ray.slope_error));
+  return cut;
+}
+
+/// Which of eight triangles the ray may meet between `start` and `end`.
+/// Conservative: with f = t − tanκ(a) at the two crossings, a triangle is dropped only when f has surely the same sign at both and neither is
+/// nearer to 0 than the curve in between can bend, or both crossings surely lie beyond the chart's heights, or beside the ray's ends.
+template <Space kSpace>
+HWY_INLINE std::uint32_t candidates(const Block8& block, const Chart& chart, const ChartRay& ray, const LeafConstants& leaf, float end) {
+  const D d;
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < 8; lane += hn::Lanes(d)) {
+    Corner corner[3];
+    for (int i = 0; i < 3; ++i) {
+      const V x = hn::Load(d, block.x[i] + lane), y = hn::Load(d, block.y[i] + lane);
+      corner[i].t = hn::MulAdd(x, hn::Set(d, ray.t_x), hn::Mul(y, hn::Set(d, ray.t_y)));
+      corner[i].h = hn::MulAdd(x, hn::Set(d, ray.h_x), hn::MulSub(y, hn::Set(d, ray.h_y), hn::Set(d, ray.h_0)));
+      corner[i].z_by_w = hn::Load(d, block.z_by_w[i] + lane);
+      corner[i].by_w = hn::Load(d, block.by_w[i] + lane);
+    }
+    const V h_error = hn::Set(d, ray.h_error), zero = hn::Zero(d);
+    const V lowest = hn::Min(corner[0].h, hn::Min(corner[1].h, corner[2].h)), highest = hn::Max(corner[0].h, hn::Max(corner[1].h, corner[2].h));
+    const M crosses = hn::And(hn::Le(lowest, h_error), hn::Ge(highest, hn::Neg(h_error)));
+    std::uint8_t mask[8] = {};
+    if (hn::AllFalse(d, crosses)) continue;
+    const M left0 = hn::Ge(corner[0].h, zero), left1 = hn::Ge(corner[1].h, zero), left2 = hn::Ge(corner[2].h, zero);
+    const V nearest = hn::Min(hn::Abs(corner[0].h), hn::Min(hn::Abs(corner[1].h), hn::Abs(corner[2].h)));
+    const M unsure = hn::Le(nearest, h_error);  // a corner on the ray's line: which edges are cut is not known
+    const Cut one = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left1), corner[0], corner[2]), corner[1]);
+    const Cut two = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left2), corner[0], corner[1]), corner[2]);
+    const M late = hn::Gt(hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error)), hn::Set(d, end));
+    const M early = hn::Lt(hn::Max(hn::Add(one.t, one.t_error), hn::Add(two.t, two.t_error)), hn::Set(d, ray.start));
+    M missed = hn::Or(late, early);
+    if constexpr (kSpace == Space::euclidean) {
+      const V f1 = hn::Sub(one.t, one.a), f2 = hn::Sub(two.t, two.a);
+      const V e1 = hn::Add(one.t_error, one.a_error), e2 = hn::Add(two.t_error, two.a_error);
+      missed = hn::Or(missed, hn::Or(hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)))));
+    } else {
+      constexpr float kCurvature = kSpace == Space::spherical ? 1.0f : -1.0f;
+      const V reach = hn::Set(d, chart.reach), minus_reach = hn::Set(d, -chart.reach), kappa = hn::Set(d, kCurvature);
+      const M above = hn::And(hn::Gt(hn::Sub(one.a, one.a_error), reach), hn::Gt(hn::Sub(two.a, two.a_error), reach));
+      const M below = hn::And(hn::Lt(hn::Add(one.a, one.a_error), minus_reach), hn::Lt(hn::Add(two.a, two.a_error), minus_reach));
+      const V a1 = hn::Min(reach, hn::Max(minus_reach, one.a)), a2 = hn::Min(reach, hn::Max(minus_reach, two.a));
+      const V f1 = hn::Sub(one.t, pade(kappa, a1)), f2 = hn::Sub(two.t, pade(kappa, a2));
+      const V steepest = hn::Set(d, chart.steepest), leaf_error = hn::Set(d, chart.leaf_error);
+      const V e1 = hn::Add(one.t_error, hn::MulAdd(steepest, one.a_error, leaf_error));
+      const V e2 = hn::Add(two.t_error, hn::MulAdd(steepest, two.a_error, leaf_error));
+      // Bound of the curve's deviation from its chord: |f″|/8 over the segment, f = t − tanκ(a(u)), a projective in u.
+      const V da = hn::Abs(hn::Sub(one.a, two.a)), dw = hn::Abs(hn::Sub(one.w, two.w));
+      V bend = hn::Mul(da, hn::MulAdd(da, hn::Set(d, chart.bend_of_tan), hn::Mul(dw, hn::Set(d, chart.bend_of_height))));
+      const M clamped = hn::Or(hn::Ne(a1, one.a), hn::Ne(a2, two.a));
+      bend = hn::Add(bend, hn::IfThenElseZero(clamped, hn::Abs(hn::Sub(one.t, two.t))));
+      const M over = hn::And(hn::Gt(f1, hn::Add(e1, bend)), hn::Gt(f2, hn::Add(e2, bend)));
+      const M under = hn::And(hn::Lt(f1, hn::Neg(hn::Add(e1, bend))), hn::Lt(f2, hn::Neg(hn::Add(e2, bend))));
+      missed = hn::Or(hn::Or(missed, hn::Or(above, below)), hn::Or(over, under));
+    }
+    hn::StoreMaskBits(d, hn::And(crosses, hn::Or(unsure, hn::Not(missed))), mask);
+    bits |= static_cast<std::uint32_t>(mask[0]) << lane;
+  }
+  return bits;
+}
+
+/// t of the point b of a triangle of the block: where the search may now end.
+HWY_INLINE float t_of(const Block8& block, int lane, const ChartRay& ray, const BvhHit& hit) {
+  float sum = 0, weights = 0;
+  for (int i = 0; i < 3; ++i) {
+    const float weight = static_cast<float>(hit.b[i]) / block.by_w[i][lane];
+    sum += weight * (ray.t_x * block.x[i][lane] + ray.t_y * block.y[i][lane]);
+    weights += weight;
+  }
+  const float t = sum / weights;
+  return t + 2 * ray.t_error + 4e-6f * std::fabs(t);
+}
+
+template <Space kSpace, int kTerms, bool kAny, bool kCount>
+bool walk(const Walk& walk_of) {
+  const Chart& chart = *walk_of.chart;
+  ChartRay ray = chart_ray(kSpace, chart, *walk_of.ray, walk_of.height_bound, walk_of.best->t);
+  if (ray.misses) return false;
+  const RayPlane plane = plane_of(kSpace, *walk_of.ray);
+  const LeafConstants leaf{static_cast<float>(walk_of.height_bound), chart.largest_w};
+  struct Entry {
+    float enter;
+    std::uint32_t child;
+  };
+  Entry stack[8 * kDeepest];
+  int depth = 0;
+  stack[depth++] = {-kNever, 0};
+  bool found = false;
+  while (depth > 0) {
+    const Entry entry = stack[--depth];
+    if (entry.enter > ray.reach) continue;
+    std::uint32_t child = entry.child;
+    while (!(child & kBlock)) {
+      if constexpr (kCount) ++walk_of.counts->nodes;
+      const Node8& node = chart.nodes[child];
+      alignas(32) float enters[8];
+      std::uint32_t bits = touched<kTerms>(node, chart, ray, ray.reach, enters);
+      if (bits == 0) {
+        child = kNone;
+        break;
+      }
+      // The nearest child next; the others on the stack, the nearer on top.
+      int lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+      bits &= bits - 1;
+      Entry nearest{enters[lane], node.child[lane]};
+      const int base = depth;
+      while (bits) {
+        lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+        bits &= bits - 1;
+        Entry other{enters[lane], node.child[lane]};
+        if (other.enter < nearest.enter) std::swap(other, nearest);
+        int at = depth++;
+        for (; at > base && stack[at - 1].enter < other.enter; --at) stack[at] = stack[at - 1];
+        stack[at] = other;
+      }
+      child = nearest.child;
+    }
+    if (child == kNone) continue;
+    const Block8& block = chart.blocks[child & ~kBlock];
+    if constexpr (kCount) ++walk_of.counts->blocks;
+    for (std::uint32_t bits = candidates<kSpace>(block, chart, ray, leaf, ray.reach); bits; bits &= bits - 1) {
+      const int lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+      const std::uint32_t triangle = block.triangle[lane];
+      if (triangle == kNone) continue;
+      if constexpr (kCount) ++walk_of.counts->candidates;
+      const auto& v = walk_of.soup->triangles[triangle];
+      const Vertex* vertices = walk_of.soup->vertices.data();
+      const TriangleHit hit = intersect(plane, vertices[v[0]], vertices[v[1]], vertices[v[2]], walk_of.best->t);
+      if (!hit.found) continue;
+      found = true;
+      *walk_of.best = {triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
+      if constexpr (kAny) return true;
+      ray.reach = std::min(ray.reach, t_of(block, lane, ray, *walk_of.best));
+    }
+  }
+  return found;
+}
+
+template <bool kAny, bool kCount>
+bool walk_chart(Space space, const Walk& walk_of) {
+  const int terms = walk_of.chart->terms;
+  if (space == Space::euclidean) return walk<Space::euclidean, 1, kAny, kCount>(walk_of);
+  if (space == Space::spherical)
+    return terms == 4 ? walk<Space::spherical, 4, kAny, kCount>(walk_of) : walk<Space::spherical, 7, kAny, kCount>(walk_of);
+  return terms == 3   ? walk<Space::hyperbolic, 3, kAny, kCount>(walk_of)
+         : terms == 5 ? walk<Space::hyperbolic, 5, kAny, kCount>(walk_of)
+                      : walk<Space::hyperbolic, 7, kAny, kCount>(walk_of);
+}
+
+bool walk_closest(Space space, const Walk& walk_of) { return walk_chart<false, false>(space, walk_of); }
+bool walk_any(Space space, const Walk& walk_of) { return walk_chart<true, false>(space, walk_of); }
+bool walk_counted(Space space, const Walk& walk_of) { return walk_chart<false, true>(space, walk_of); }
+
+}  // namespace orbc::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace orbc::trace {
+
+HWY_EXPORT(walk_closest);
+HWY_EXPORT(walk_any);
+HWY_EXPORT(walk_counted);
+
+BvhHit Bvh::closest(const Ray& ray, double t_max) const {
+  BvhHit best;
+  best.t = t_max;
+  for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_closest)(space_, {&soup_, &chart, &ray, height_, &best, nullptr});
+  try_large(ray, best);
+  return best;
+}
+
+BvhHit Bvh::closest_counted(const Ray& ray, double t_max, BvhCounts& counts) const {
+  BvhHit best;
+  best.t = t_max;
+  for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_counted)(space_, {&soup_, &chart, &ray, height_, &best, &counts});
+  try_large(ray, best);
+  return best;
+}
+
+bool Bvh::occluded(const Ray& ray, double t_max) const {
+  BvhHit best;
+  best.t = t_max;
+  for (const Chart& chart : charts_)
+    if (HWY_DYNAMIC_DISPATCH(walk_any)(space_, {&soup_, &chart, &ray, height_, &best, nullptr})) return true;
+  try_large(ray, best);
+  return best.triangle != kNone;
+}
+
+void Bvh::try_large(const Ray& ray, BvhHit& best) const {
+  if (large_.empty()) return;
+  const RayPlane plane = plane_of(space_, ray);
+  for (const std::uint32_t triangle : large_) {
+    const auto& v = soup_.triangles[triangle];
+    const TriangleHit hit = intersect(plane, soup_.vertices[v[0]], soup_.vertices[v[1]], soup_.vertices[v[2]], best.t);
+    if (hit.found) best = {triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
+  }
+}
+
+}  // namespace orbc::trace
+#endif

@@ -1,0 +1,54 @@
+#pragma once
+#include <vector>
+
+#include "compiler/geometry/isometry.h"
+#include "compiler/trace/pack.h"
+#include "compiler/trace/soup.h"
+
+namespace orbc::trace {
+
+/// A gnomonic chart around its own centre, and the tree of the triangles that belong to it.
+struct Chart {
+  geometry::Matrix3 chart_from_room{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  double radius = 0;                ///< largest arc from the centre to a corner of a triangle
+  float extent = 0;                 ///< largest |(x, y)/w| of a corner
+  float largest_w = 1;              ///< of a corner: 1 on S², cosh(radius) on H²
+  int terms = 1;                    ///< of the odd polynomial
+  float poly[7] = {1, 0, 0, 0, 0, 0, 0};  ///< tanκ(a) ≈ Σ poly[k]·a^(2k+1), increasing on all of ℝ
+  float poly_error = 0;             ///< its largest error for |a| ≤ radius, in the float evaluation
+  float leaf_error = 0;             ///< of the rational function of the leaf test for |a| ≤ reach
+  float reach = 0;                  ///< a little above `radius`: arcs of the leaf test are clamped here
+  float steepest = 1;               ///< largest slope of tanκ there
+  float bend_of_tan = 0, bend_of_height = 0;  ///< bounds of the curve's bend between two crossings (leaf test)
+  std::vector<Node8> nodes;         ///< nodes[0] is the root
+  std::vector<Block8> blocks;
+};
+
+/// Triangles that share a chart.
+struct ChartPlan {
+  geometry::Point centre;
+  double radius = 0;
+  std::vector<std::uint32_t> triangles;
+};
+
+struct ChartPlans {
+  std::vector<ChartPlan> charts;
+  std::vector<std::uint32_t> large; ///< triangles too large for any chart (S²: corners > 80° from its centre; H²: > 3): tried one by one
+};
+
+/// Divides the triangles among as few charts as the spaces allow: each chart's corners lie within 1.15 of its centre on S² (a room with
+/// three or more corners then has one chart, lunes two, the hemisphere a few) and within 1.8 on H²; E² has one.
+[[nodiscard]] ChartPlans plan_charts(geometry::Space space, const Soup& soup);
+
+/// Makes the chart's map and polynomials (no tree yet).
+/// Exact: `poly` is checked to be increasing and its error measured; both enter the padding of the node test.
+[[nodiscard]] Chart make_chart(geometry::Space space, const ChartPlan& plan, const Soup& soup);
+
+/// tanκ as the leaf test evaluates it: the Padé approximant [5/4], |a| ≤ Chart::reach.
+template <class T>
+[[nodiscard]] constexpr T pade_tan(T curvature, T a) {
+  const T y = a * a;
+  return a * (T(945) + y * (T(-105) * curvature + y)) / (T(945) + y * (T(-420) * curvature + T(15) * y));
+}
+
+}  // namespace orbc::trace

@@ -1,0 +1,132 @@
+#include <catch2/catch.hpp>
+
+#include "tests/unit/trace/support.h"
+
+using namespace orbc;
+using namespace orbc::trace;
+using namespace orbc::trace::testing;
+
+namespace {
+
+struct Tally {
+  int hits = 0, wrong = 0;
+  BvhCounts counts;
+};
+
+/// Every ray through the tree and through all triangles: the same triangle (or the same t, for ties on shared edges).
+Tally compare(const place::PlacedRoom& placed, const Bvh& bvh, int rays, Random& random, double steep = 1) {
+  Tally tally;
+  const Space space = placed.room.space;
+  for (int i = 0; i < rays; ++i) {
+    const Ray ray = random_ray(placed, random, steep);
+    const double end = space == Space::spherical && ray.c > 0 ? kPi / ray.c : kEndless;
+    const BvhHit fast = bvh.closest_counted(ray, end, tally.counts);
+    const BvhHit slow = try_all(space, bvh.soup(), ray, end);
+    tally.hits += slow.triangle != kNone;
+    if ((fast.triangle != kNone) != (slow.triangle != kNone) || fast.t != slow.t) {
+      ++tally.wrong;
+      UNSCOPED_INFO("ray " << i << ": fast " << fast.triangle << " at " << fast.t << ", slow " << slow.triangle << " at " << slow.t << ", m " << ray.m);
+    }
+    CHECK(bvh.occluded(ray, end) == (slow.triangle != kNone));
+  }
+  return tally;
+}
+
+Soup soup_from(const place::PlacedMesh& mesh) {
+  Soup soup;
+  for (std::size_t i = 0; i < mesh.floor.size(); ++i) soup.vertices.push_back({mesh.floor[i].w, mesh.floor[i].x, mesh.floor[i].y, mesh.z[i]});
+  for (const auto& t : mesh.triangles) soup.triangles.push_back({t[0], t[1], t[2]});
+  soup.parts.push_back({0, 0});
+  return soup;
+}
+
+}  // namespace
+
+TEST_CASE("the tree finds exactly what trying all triangles finds", "[trace]") {
+  Random random;
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::hyperbolic, 5, 2)),
+                             furnished(regular_room(Space::hyperbolic, 8, 4)), furnished(lune(2)), furnished(lune(5)), furnished(half_lune(6)), furnished(hemisphere())}) {
+    const Space space = placed.room.space;
+    for (const auto& [count, size] : {std::pair{30, 1.0}, {400, 0.15}, {3000, 0.03}}) {
+      const Bvh bvh(space, soup_from(soup_of(placed, count, size, random)), serial_executor());
+      for (const double steep : {1.0, 0.1, 1e-4, 1e-8, 0.0}) {
+        const Tally tally = compare(placed, bvh, count > 1000 ? 200 : 600, random, steep);
+        INFO("curvature " << geometry::curvature(space) << ", " << count << " triangles of " << size << ", slopes to " << steep << ", " << tally.hits << " hits, charts "
+                          << bvh.charts().size() << ", large " << bvh.large().size());
+        CHECK(tally.wrong == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("the tree finds what vertical and nearly vertical rays meet", "[trace]") {
+  Random random;
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::hyperbolic, 5, 2))}) {
+    const Space space = placed.room.space;
+    const Bvh bvh(space, soup_from(soup_of(placed, 400, 0.2, random)), serial_executor());
+    int hits = 0, wrong = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Point p = random_point(placed.room, random);
+      Direction d = random_direction(space, p, random, 0);
+      d.floor = (i % 4 == 0 ? 0 : std::pow(10.0, -random.between(1, 12))) * d.floor;
+      d.z = i % 2 ? 1 : -1;
+      const Ray ray = ray_from(space, {p, random.between(0, 1)}, d);
+      const double end = space == Space::spherical && ray.c > 0 ? kPi / ray.c : kEndless;
+      const BvhHit fast = bvh.closest(ray, end), slow = try_all(space, bvh.soup(), ray, end);
+      hits += slow.triangle != kNone;
+      wrong += (fast.triangle != kNone) != (slow.triangle != kNone) || fast.t != slow.t;
+    }
+    CHECK(hits > 500);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("the tree is the same for any number of threads and small", "[trace]") {
+  const auto mesh = torus_knot(Space::hyperbolic, {}, 0.25, 0.06, 0.5, 500, 20);
+  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    for (std::size_t i = count; i-- > 0;) task(i);
+  };
+  const Bvh a(Space::hyperbolic, soup_from(mesh), serial_executor()), b(Space::hyperbolic, soup_from(mesh), backwards);
+  REQUIRE(a.charts().size() == 1);
+  const Chart &x = a.charts()[0], &y = b.charts()[0];
+  REQUIRE(x.nodes.size() == y.nodes.size());
+  REQUIRE(x.blocks.size() == y.blocks.size());
+  for (std::size_t i = 0; i < x.nodes.size(); ++i)
+    for (int j = 0; j < 8; ++j) CHECK(x.nodes[i].child[j] == y.nodes[i].child[j]);
+  for (std::size_t i = 0; i < x.blocks.size(); ++i)
+    for (int j = 0; j < 8; ++j) CHECK(x.blocks[i].triangle[j] == y.blocks[i].triangle[j]);
+  CHECK(static_cast<double>(a.bytes()) / static_cast<double>(mesh.triangles.size()) < 100);
+}
+
+TEST_CASE("few nodes are visited and few candidates fail", "[trace]") {
+  Random random;
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::hyperbolic, 5, 2))}) {
+    const Space space = placed.room.space;
+    const Bvh bvh(space, soup_from(torus_knot(space, {}, 0.25, 0.06, 0.5, 312, 20)), serial_executor());
+    Tally tally = compare(placed, bvh, 500, random);
+    CHECK(tally.wrong == 0);
+    WARN("curvature " << geometry::curvature(space) << ": of 500 rays " << tally.hits << " hits, nodes " << tally.counts.nodes << ", blocks " << tally.counts.blocks << ", candidates "
+                      << tally.counts.candidates << ", bytes/triangle " << double(bvh.bytes()) / double(bvh.soup().triangles.size()));
+    CHECK(tally.counts.candidates < 1.3 * tally.hits + 20);
+  }
+}
+
+TEST_CASE("a scene without objects and one with a single triangle work", "[trace]") {
+  auto placed = furnished(regular_room(Space::euclidean, 4, 2));
+  const TraceScene empty = prepare(placed);
+  CHECK(closest(empty, ray_from(Space::euclidean, {{}, 0.5}, {{0, 1, 0}, 0})).target == Target::wall);
+  CHECK_FALSE(occluded(empty, ray_from(Space::euclidean, {{}, 0.5}, {{0, 1, 0}, 0}), 10));
+  place::PlacedMesh mesh;
+  mesh.floor = {{1, 0.3, -0.2}, {1, 0.3, 0.2}, {1, 0.3, 0}};
+  mesh.z = {0.4, 0.4, 0.8};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.look = {0};
+  placed.parts = {mesh};
+  placed.looks.resize(1);
+  const TraceScene one = prepare(placed);
+  const Hit hit = closest(one, ray_from(Space::euclidean, {{}, 0.5}, {{0, 1, 0}, 0}));
+  CHECK(hit.target == Target::triangle);
+  CHECK(hit.t == Approx(0.3));
+  CHECK(occluded(one, ray_from(Space::euclidean, {{}, 0.5}, {{0, 1, 0}, 0}), 0.31));
+  CHECK_FALSE(occluded(one, ray_from(Space::euclidean, {{}, 0.5}, {{0, 1, 0}, 0}), 0.29));
+}
