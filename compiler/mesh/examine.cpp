@@ -7,34 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "compiler/mesh/weld.h"
 
 namespace orbc::mesh {
 namespace {
 
 using geometry::Vector3;
-
-bool less(const Vector3& a, const Vector3& b) {
-  if (a.x != b.x) return a.x < b.x;
-  if (a.y != b.y) return a.y < b.y;
-  return a.z < b.z;
-}
-
-/// For each vertex the first of those at its position (−0 and 0 are one).
-std::vector<std::uint32_t> welded(const std::vector<Vector3>& positions) {
-  std::vector<std::uint32_t> order(positions.size()), first(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (less(positions[a], positions[b])) return true;
-    if (less(positions[b], positions[a])) return false;
-    return a < b;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && !less(positions[order[i - 1]], positions[order[i]]);
-    first[order[i]] = same ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
 
 struct EdgeUse {
   std::uint32_t low, high;

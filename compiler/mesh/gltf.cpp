@@ -15,6 +15,7 @@
 #include <set>
 
 #include "compiler/mesh/sieve.h"
+#include "compiler/mesh/weld.h"
 
 namespace orbc::mesh {
 namespace {
@@ -111,7 +112,7 @@ class Reader {
     if (mesh_.triangles.empty()) fail("mesh.no-triangles", "there is no triangle in its scene");
     if (!has_uv_) mesh_.uv.clear();
     if (mesh_.looks.size() < 2) mesh_.material.clear();
-    leave_out_unused();
+    leave_out_unused(mesh_);
     if (!model_.skins.empty()) {
       loaded_.warnings.push_back(make_warning("mesh.ignored", files_.name + ": is posed by a skeleton; it is shown as it is stored"));
     }
@@ -396,23 +397,6 @@ class Reader {
     if (found != files_.pictures.end()) return decode_image(found->second, what, limits);
     if (!files_.refused.empty()) return files_.refused.front();
     return make_error("mesh.bad-texture", what + " is empty");
-  }
-
-  void leave_out_unused() {
-    std::vector<std::uint32_t> moved(mesh_.positions.size(), 0);
-    for (const auto& t : mesh_.triangles) {
-      for (const auto v : t) moved[v] = 1;
-    }
-    std::uint32_t next = 0;
-    for (std::size_t v = 0; v < moved.size(); ++v) {
-      if (!moved[v]) continue;
-      mesh_.positions[next] = mesh_.positions[v];
-      if (!mesh_.uv.empty()) mesh_.uv[next] = mesh_.uv[v];
-      moved[v] = next++;
-    }
-    mesh_.positions.resize(next);
-    if (!mesh_.uv.empty()) mesh_.uv.resize(next);
-    for (auto& t : mesh_.triangles) t = {moved[t[0]], moved[t[1]], moved[t[2]]};
   }
 
   const tinygltf::Model& model_;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "compiler/base/check.h"
+#include "compiler/mesh/weld.h"
 
 namespace orbc::mesh {
 namespace {
@@ -83,6 +84,7 @@ Mesh make_sphere(double radius, int around, int rings) {
     }
   }
   grid.triangles(true, true);
+  leave_out_unused(mesh);
   return mesh;
 }
 
@@ -117,6 +119,7 @@ Mesh make_cylinder(double radius, double height, int around, int bands, int cap_
     }
     cap.triangles(top, !top);
   }
+  leave_out_unused(mesh);
   return mesh;
 }
 

@@ -1,0 +1,49 @@
+#include "compiler/mesh/weld.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace orbc::mesh {
+namespace {
+
+bool less(const geometry::Vector3& a, const geometry::Vector3& b) {
+  if (a.x != b.x) return a.x < b.x;
+  if (a.y != b.y) return a.y < b.y;
+  return a.z < b.z;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> welded(const std::vector<geometry::Vector3>& positions) {
+  std::vector<std::uint32_t> order(positions.size()), first(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (less(positions[a], positions[b])) return true;
+    if (less(positions[b], positions[a])) return false;
+    return a < b;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && !less(positions[order[i - 1]], positions[order[i]]);
+    first[order[i]] = same ? first[order[i - 1]] : order[i];
+  }
+  return first;
+}
+
+void leave_out_unused(Mesh& mesh) {
+  std::vector<std::uint32_t> moved(mesh.positions.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    for (const auto v : t) moved[v] = 1;
+  }
+  std::uint32_t next = 0;
+  for (std::size_t v = 0; v < moved.size(); ++v) {
+    if (!moved[v]) continue;
+    mesh.positions[next] = mesh.positions[v];
+    if (!mesh.uv.empty()) mesh.uv[next] = mesh.uv[v];
+    moved[v] = next++;
+  }
+  mesh.positions.resize(next);
+  if (!mesh.uv.empty()) mesh.uv.resize(next);
+  for (auto& t : mesh.triangles) t = {moved[t[0]], moved[t[1]], moved[t[2]]};
+}
+
+}  // namespace orbc::mesh
