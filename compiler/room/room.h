@@ -22,16 +22,19 @@ struct Wall {
   bool reflects = true;             ///< belongs to the reflection group; only the plain end walls of `**` do not
 };
 
-/// What is known for sure of a realised room: measured residuals with bounds, exact signs.
+/// What is known for sure of a realised room, from its stored doubles alone: exact signs, and upper bounds of residuals. In H² a double at
+/// distance r from the origin is worth e^(2r) ulps, so the residuals of wide rooms are those of the number format.
 struct Certificate {
   bool convex = false;              ///< exact signs of the stored ambient vectors
   double angle_residual = 0;        ///< upper bound of |angle − π/k| over all corners, by interval arithmetic
   double closure_residual = 0;      ///< upper bound of the distance of a stored corner from the lines of its walls
+  double side_residual = 0;         ///< upper bound of |Wall::length − distance of the stored corners|
   double area_residual = 0;         ///< |area by Gauss–Bonnet of χ − area of the stored polygon|
 };
 
 /// The floor of the mirror room, realised. Centre at the origin (incentre if it has one, else the normalised mean of the corners), corner 1 in
-/// the direction of +x, corners counter-clockwise. Lengths in curvature radii (E²: scene units).
+/// the direction of +x, corners counter-clockwise. `**` is a rectangle of four corners π/2: walls 1 and 3 are the mirrors, 2 and 4 plain ends.
+/// Lengths in curvature radii (E²: scene units).
 struct Room {
   geometry::Space space = geometry::Space::euclidean;
   notation::Orbifold orbifold;
@@ -49,5 +52,8 @@ struct Room {
 [[nodiscard]] geometry::Point point_on_wall(const Room& room, int wall, double s);
 /// The mirror image in wall `wall` (from 0).
 [[nodiscard]] geometry::Isometry reflection_in_wall(const Room& room, int wall);
+
+/// The mirror images in all walls that reflect, in the order of the walls: they generate the group of the room.
+[[nodiscard]] std::vector<geometry::Isometry> generators(const Room& room);
 
 }  // namespace orbc::room

@@ -1,0 +1,105 @@
+// N − 3 sides are given, three are not. The walls between two free walls form a rigid chain (angles and lengths known), so the inner
+// product of the two free lines is known, and so is the Gram matrix of the three free lines: the polygon follows in closed form, like
+// a triangle from its angles (a generalised one: lines may cross, be parallel or have a common perpendicular). Of the two mirror
+// images of the third line at most one closes a convex room. No iteration, no start value.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "compiler/room/polygon.h"
+
+namespace orbc::room {
+namespace {
+
+// The lines of consecutive walls in the frame of the first wall's end.
+struct Chain {
+  std::vector<RealVector> lines;
+};
+
+Chain chain_between(const std::vector<CornerAngle>& angles, const std::map<int, double>& lengths, std::size_t from, std::size_t to) {
+  const std::size_t n = angles.size();
+  RealVector at{1, 0, 0}, along{0, 1, 0}, left{0, 0, 1};
+  Chain chain{{dual(-1, left)}};
+  for (std::size_t wall = from; wall != to;) {
+    wall = (wall + 1) % n;
+    // At the corner the way turns left by π − α.
+    const Real &c = angles[wall].cos, &s = angles[wall].sin;
+    const RealVector turned = s * left - c * along;
+    left = (-s) * along - c * left;
+    along = turned;
+    chain.lines.push_back(dual(-1, left));
+    if (wall == to) break;
+    const Real length = lengths.at(static_cast<int>(wall) + 1), ch = cosh(length), sh = sinh(length);
+    const RealVector moved = ch * at + sh * along;
+    along = sh * at + ch * along;
+    at = moved;
+  }
+  return chain;
+}
+
+// Moves a chain so that its first and last line become `first` and `last`: coordinates in the basis (first, last, first × last) stay.
+std::vector<RealVector> moved(const Chain& chain, const RealVector& first, const RealVector& last) {
+  const RealVector &f = chain.lines.front(), &l = chain.lines.back(), m = dual(-1, cross(f, l)), image = dual(-1, cross(first, last));
+  const Real g = inner(-1, f, l), det = 1 - g * g;
+  std::vector<RealVector> lines;
+  for (const RealVector& line : chain.lines) {
+    const Real p = inner(-1, line, f), q = inner(-1, line, l), r = inner(-1, line, m);
+    lines.push_back(((p - g * q) / det) * first + ((q - g * p) / det) * last - (r / det) * image);
+  }
+  return lines;
+}
+
+std::optional<Polygon> assembled(std::size_t n, const std::array<std::size_t, 3>& free, const std::array<Chain, 3>& chains, const std::array<RealVector, 3>& free_lines) {
+  std::vector<RealVector> lines(n);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::vector<RealVector> placed = moved(chains[i], free_lines[i], free_lines[(i + 1) % 3]);
+    for (std::size_t j = 0; j + 1 < placed.size(); ++j) lines[(free[i] + j) % n] = placed[j];
+  }
+  return closed_polygon(std::move(lines));
+}
+
+std::optional<Diagnostic> fault(int walls, const std::map<int, double>& lengths) {
+  if (static_cast<int>(lengths.size()) != walls - 3)
+    return make_error("room.bad-lengths", fmt::format("{} side lengths are given, a room of {} walls has {} free ones", lengths.size(), walls, walls - 3));
+  for (const auto& [wall, length] : lengths) {
+    if (wall < 1 || wall > walls) return make_error("room.bad-lengths", fmt::format("there is no wall {}: walls are numbered from 1 to {}", wall, walls));
+    if (!(length > 0 && length <= 40)) return make_error("room.bad-lengths", fmt::format("wall {} has the length {}", wall, length), "lengths are more than 0 and at most 40");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<Polygon> polygon_with_lengths(const std::vector<CornerAngle>& angles, const std::map<int, double>& lengths) {
+  const std::size_t n = angles.size();
+  if (auto wrong = fault(static_cast<int>(n), lengths)) return *std::move(wrong);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!lengths.count(static_cast<int>(i) + 1)) open.push_back(i);
+
+  // Start at the pair of free lines that is farthest from parallel (|g| = 1), where the basis would collapse.
+  std::array<std::size_t, 3> best{};
+  std::array<Chain, 3> best_chains;
+  Real best_gap = -1;
+  for (std::size_t turn = 0; turn < 3; ++turn) {
+    const std::array<std::size_t, 3> free{open[turn], open[(turn + 1) % 3], open[(turn + 2) % 3]};
+    Chain first = chain_between(angles, lengths, free[0], free[1]);
+    const Real g = inner(-1, first.lines.front(), first.lines.back()), gap = abs(1 - g * g);
+    if (gap <= best_gap) continue;
+    best = free, best_gap = gap;
+    best_chains = {std::move(first), chain_between(angles, lengths, free[1], free[2]), chain_between(angles, lengths, free[2], free[0])};
+  }
+  const auto product = [&](std::size_t i) { return inner(-1, best_chains[i].lines.front(), best_chains[i].lines.back()); };
+  const Real g = product(0), g12 = product(1), g02 = product(2), det = 1 - g * g;
+  const RealVector n0 = best_chains[0].lines.front(), n1 = best_chains[0].lines.back(), m = dual(-1, cross(n0, n1));
+  const Real x = (g02 - g * g12) / det, y = (g12 - g * g02) / det, z2 = (x * g02 + y * g12 - 1) / det;
+  if (z2 > 0)
+    for (const int sign : {1, -1}) {
+      const RealVector n2 = x * n0 + y * n1 + (sign * sqrt(z2)) * m;
+      if (auto polygon = assembled(n, best, best_chains, {n0, n1, n2})) return *std::move(polygon);
+    }
+  return make_error("room.no-such-shape", "no room with these corners has walls of these lengths");
+}
+
+}  // namespace orbc::room

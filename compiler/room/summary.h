@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "compiler/room/room.h"
+
+namespace orbc::room {
+
+/// What `orbc info` tells about a realised room. Lengths in curvature radii (E²: scene units), angles in radians.
+struct Summary {
+  std::vector<double> sides;        ///< length of wall 1, 2, …
+  std::vector<double> angles;       ///< interior angle of corner 1, 2, …
+  double inradius = 0;              ///< 0 when no circle touches all walls
+  double circumradius = 0;
+  double area = 0;
+  int moduli = 0;                   ///< number of free lengths of rooms with these corners; E²: besides `scale`
+  std::vector<std::string> moduli_names;  ///< one for each: "cut of walls 2 and 5" of the paper's forward reading, "aspect"
+  int translational_cover = 0;      ///< E² orbifolds: rooms in a smallest cover that is a torus (4, 6, 8, 12); else 0
+};
+
+[[nodiscard]] Summary summarise(const Room& room);
+
+}  // namespace orbc::room
