@@ -1,4 +1,5 @@
-// The only place where OpenMesh reads a file. Its readers trust what they read, so they get sieved text only, and an importer
+// The only place where OpenMesh reads a file. Its readers trust what they read (a PLY header without its end never ends, OBJ and PLY
+// indices are passed on unchecked, ascii lists it does not know shift all that follows), so they get sieved text only, and an importer
 // that takes down polygons without building a half-edge structure: non-manifold meshes lose no face.
 // OpenMesh's readers are global objects with state; a mutex keeps them to one file at a time.
 #include <fmt/core.h>

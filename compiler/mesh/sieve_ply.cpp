@@ -200,7 +200,7 @@ class PlySieve {
     sieved.has_uv = vertex_uv_;
     sieved.text = fmt::format(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}"
-        "element face {}\nproperty list uint uint vertex_indices\nend_header\n",
+        "element face {}\nproperty list int uint vertex_indices\nend_header\n",
         vertex_count_, vertex_uv_ ? "property float u\nproperty float v\n" : "", face_count_);
     sieved.text += vertices_ + faces_;
     if (corner_uv_complete_ && !corner_uv_.empty()) sieved.corner_uv = std::move(corner_uv_);

@@ -1,0 +1,99 @@
+#include "compiler/mesh/image.h"
+
+#include <jpeglib.h>
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "tests/unit/mesh/files.h"
+
+using namespace orbc;
+using namespace orbc::mesh;
+using namespace orbc::mesh::test;
+
+namespace {
+
+Image noise(int width, int height, bool opaque) {
+  std::mt19937 random(7);
+  Image image{width, height, {}};
+  for (int i = 0; i < 4 * width * height; ++i) image.rgba.push_back(opaque && i % 4 == 3 ? 255 : static_cast<std::uint8_t>(random()));
+  return image;
+}
+
+std::string jpeg(int width, int height) {
+  jpeg_compress_struct info{};
+  jpeg_error_mgr errors{};
+  info.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&info);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&info, &bytes, &size);
+  info.image_width = static_cast<JDIMENSION>(width), info.image_height = static_cast<JDIMENSION>(height);
+  info.input_components = 3, info.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&info);
+  jpeg_set_quality(&info, 95, TRUE);
+  jpeg_start_compress(&info, TRUE);
+  std::vector<unsigned char> row;
+  for (int x = 0; x < width; ++x) row.insert(row.end(), {200, 100, 50});
+  JSAMPROW rows[] = {row.data()};
+  for (int y = 0; y < height; ++y) jpeg_write_scanlines(&info, rows, 1);
+  jpeg_finish_compress(&info);
+  std::string out(reinterpret_cast<char*>(bytes), size);
+  jpeg_destroy_compress(&info);
+  free(bytes);
+  return out;
+}
+
+std::string code(const Result<Image>& result) { return result ? "fine" : result.error().front().code; }
+
+}  // namespace
+
+TEST_CASE("a picture comes back from PNG as it was, and gives the same bytes every time", "[mesh]") {
+  for (const auto& image : {noise(17, 5, true), noise(17, 5, false), noise(1, 1, true), noise(300, 200, false)}) {
+    const auto bytes = encode_png(image);
+    CHECK(bytes == encode_png(image));
+    CHECK(bytes.find("tIME") == bytes.npos);
+    const auto back = decode_png(bytes);
+    REQUIRE(back);
+    CHECK(back->width == image.width);
+    CHECK(back->height == image.height);
+    CHECK(back->rgba == image.rgba);
+  }
+}
+
+TEST_CASE("a JPEG is read as RGB, whatever its name", "[mesh]") {
+  const Folder folder("jpeg");
+  const auto image = load_image(folder.write("a.png", jpeg(20, 10)));
+  REQUIRE(image);
+  CHECK(image->width == 20);
+  CHECK(image->height == 10);
+  CHECK(std::abs(image->rgba[0] - 200) <= 2);
+  CHECK(std::abs(image->rgba[1] - 100) <= 2);
+  CHECK(std::abs(image->rgba[2] - 50) <= 2);
+  CHECK(image->rgba[3] == 255);
+}
+
+TEST_CASE("pictures that are too large, broken or none are refused", "[mesh]") {
+  const Folder folder("pictures");
+  CHECK(code(load_image(folder("gone.png"))) == "mesh.missing-file");
+  CHECK(code(load_image(folder.path())) == "mesh.not-a-file");
+  CHECK(code(load_image(folder.write("a.png", "hello"))) == "mesh.bad-image");
+  CHECK(code(decode_image("", "x")) == "mesh.bad-image");
+  auto png = encode_png(noise(40, 40, true));
+  CHECK(code(decode_image(png, "x", {.max_side = 39})) == "mesh.image-too-big");
+  CHECK(code(decode_image(png, "x", {.max_bytes = 6000})) == "mesh.image-too-big");
+  CHECK(code(decode_image(jpeg(40, 40), "x", {.max_side = 39})) == "mesh.image-too-big");
+}
+
+TEST_CASE("cut off and bent pictures are a picture or a diagnostic", "[mesh]") {
+  std::mt19937 random(1);
+  for (const auto& whole : {encode_png(noise(20, 20, false)), jpeg(40, 30)}) {
+    for (std::size_t length = 0; length < whole.size(); ++length) CHECK(code(decode_image(whole.substr(0, length), "x")) != "");
+    for (int round = 0; round < 3000; ++round) {
+      auto bytes = whole;
+      for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+      const auto image = decode_image(bytes, "x");
+      if (image) REQUIRE(image->rgba.size() == std::size_t{4} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height));
+    }
+  }
+}
