@@ -85,6 +85,19 @@ SourceSpan Locator::scalar_at(std::size_t offset, std::string_view value) const 
   return at(offset);
 }
 
+bool Locator::quote_is_closed(std::size_t offset) const {
+  if (offset >= text().size()) return true;
+  const char quote = text()[offset];
+  if (quote != '"' && quote != '\'') return true;
+  for (std::size_t i = offset + 1; i < text().size(); ++i) {
+    if (text()[i] == '\\' && quote == '"') ++i;
+    else if (text()[i] != quote) continue;
+    else if (quote == '\'' && i + 1 < text().size() && text()[i + 1] == '\'') ++i;  // '' stands for one quote
+    else return true;
+  }
+  return false;
+}
+
 std::optional<Diagnostic> Locator::first_bad_character() const {
   for (std::size_t i = 0; i < text().size();) {
     const Decoded decoded = decode(text(), i);

@@ -20,6 +20,8 @@ class Locator {
   [[nodiscard]] SourceSpan token_at(std::size_t offset) const;
   /// A scalar that starts at `offset` and means `value`: as far as it reaches on its line, with its quotes.
   [[nodiscard]] SourceSpan scalar_at(std::size_t offset, std::string_view value) const;
+  /// False for text that starts with a quote at `offset` and ends with the file; yaml-cpp takes it as closed.
+  [[nodiscard]] bool quote_is_closed(std::size_t offset) const;
   /// The first byte sequence that is not UTF-8 or not a printable character of YAML 1.2 (§ 5.1), as a diagnostic.
   [[nodiscard]] std::optional<Diagnostic> first_bad_character() const;
 

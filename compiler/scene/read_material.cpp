@@ -105,7 +105,7 @@ Material read_named(Reader& reader, const Node& node, const std::string& what, c
   std::vector<std::string> known = preset_names();
   known.insert(known.end(), color_names().begin(), color_names().end());
   const std::string nearest = nearest_word(node.text, known);
-  reader.error("scene.unknown-material", node.span, fmt::format("{} must be a colour, a map of material keys, or {}", what, either(preset_names())),
+  reader.error("scene.unknown-material", node.span, fmt::format("{} must be a colour, a map of material keys, or {}", what, listed(preset_names())),
                nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest));
   return material;
 }

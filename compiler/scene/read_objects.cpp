@@ -42,7 +42,7 @@ MeshFile read_mesh(Reader& reader, const Node& node) {
   const std::string ending = split(*path).ending;
   if (std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end()) return mesh;
   const std::string nearest = nearest_word(ending, kEndings);
-  reader.error("scene.unknown-format", node.span, fmt::format("the mesh's name must end in {}", either({".obj", ".ply", ".off", ".stl", ".gltf", ".glb"})),
+  reader.error("scene.unknown-format", node.span, fmt::format("the mesh's name must end in {}", listed({".obj", ".ply", ".off", ".stl", ".gltf", ".glb"})),
                nearest.empty() ? "" : fmt::format("did you mean `.{}`?", nearest));
   return mesh;
 }
@@ -124,7 +124,7 @@ Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
   const Fields fields(reader, node, "an object", keys);
   const std::string shape = fields.only_one_of(shape_keys());
   if (shape.empty() && fields.is_map())
-    reader.error("scene.missing-key", node.span, "an object needs one of the keys " + either(shape_keys()), "write - mesh: meshes/statue.obj or - sphere: {radius: 0.1}");
+    reader.error("scene.missing-key", node.span, "an object needs one of the keys " + listed(shape_keys()), "write - mesh: meshes/statue.obj or - sphere: {radius: 0.1}");
   if (!shape.empty()) read_shape(fields, shape, facts, object);
   if (const Node* size = fields.find("size")) object.size = fields.number("size", 1, kLength), object.size_span = size->span;
   object.embedding = fields.choice<Embedding>("embedding", object.embedding, {{"conformal", Embedding::conformal}, {"exponential", Embedding::exponential}});

@@ -231,6 +231,14 @@ std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& 
   return walls;
 }
 
+// `floor: {cell: 0.5}` changes the default checker, `floor: {color: tan}` replaces it.
+const Material& base_of_surface(const Fields& fields, const Surface& fallback) {
+  static const std::vector<std::string> kKept = {"second", "cell", "kind", "roughness", "index", "emission"};
+  static const Material kPlain;
+  const bool kept = std::all_of(fields.node().keys.begin(), fields.node().keys.end(), [](const Node& key) { return std::find(kKept.begin(), kKept.end(), key.text) != kKept.end(); });
+  return kept ? fallback.material : kPlain;
+}
+
 Surface read_surface(Reader& reader, const Node& node, const std::string& what, const Surface& fallback) {
   Surface surface = fallback;
   surface.span = node.span;
@@ -239,7 +247,7 @@ Surface read_surface(Reader& reader, const Node& node, const std::string& what, 
     return surface;
   }
   const Fields fields(reader, node, what, with_material_keys({"mirror"}));
-  if (has_material_key(fields)) surface.material = read_material_keys(fields, Material{});
+  if (has_material_key(fields)) surface.material = read_material_keys(fields, base_of_surface(fields, fallback));
   const Node* mirror = fields.find("mirror");
   if (!mirror || is_none(*mirror)) return surface;
   surface.mirror = read_mirror(reader, *mirror, false).mirror;

@@ -53,7 +53,12 @@ std::variant<LookAtObject, Place, LookDirection> read_look_at(Reader& reader, co
     if (auto name = reader.text(node, "`look_at`")) return LookAtObject{*name};
     return LookDirection{};
   }
-  if (!node.find("azimuth") && !node.find("elevation")) return read_place(reader, node, "`look_at`", facts);
+  if (!node.find("azimuth") && !node.find("elevation")) {
+    const std::size_t before = reader.diagnostics.size();
+    const Place place = read_place(reader, node, "`look_at`", facts);
+    if (reader.diagnostics.size() > before) return LookDirection{};  // no follow-on mistakes from a place that is none
+    return place;
+  }
   const Fields fields(reader, node, "a direction of view", {"azimuth", "elevation"});
   return LookDirection{fields.angle("azimuth", {}), fields.angle("elevation", {}, {-90, 90})};
 }

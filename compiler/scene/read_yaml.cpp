@@ -21,6 +21,12 @@ struct Refusal {  // thrown by the handler through yaml-cpp, caught below
   Diagnostic diagnostic;
 };
 
+// Most often an orbifold without its quotes.
+Diagnostic alias(const Locator& locator, std::size_t offset) {
+  return make_error("scene.alias", "in YAML a word that starts with * is a reference to an anchor, which scene files do not have",
+                    "a notation is text, write it in quotes: orbifold: \"*22222\"", locator.token_at(offset));
+}
+
 class TreeBuilder final : public YAML::EventHandler {
  public:
   TreeBuilder(const Locator& locator, const DocumentLimits& limits) : locator_(locator), limits_(limits) {}
@@ -31,12 +37,13 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { put(Node{}, mark); }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuse_alias(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { throw Refusal{alias(locator_, static_cast<std::size_t>(mark.pos))}; }
   void OnAnchor(const YAML::Mark& mark, const std::string&) override {
     refuse(mark, "scene.alias", "anchors (&name) and references (*name) are not part of a scene file", "write the value out; `walls: {all: …}` shares settings between walls");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
     refuse_tag(mark, tag);
+    if (!locator_.quote_is_closed(mark.pos)) refuse(mark, "scene.syntax", "this quote is not closed", "end the text with the quote it starts with");
     Node node;
     node.kind = NodeKind::scalar;
     node.text = value;
@@ -63,10 +70,6 @@ class TreeBuilder final : public YAML::EventHandler {
 
   [[noreturn]] void refuse(const YAML::Mark& mark, const char* code, std::string message, std::string hint) const {
     throw Refusal{make_error(code, std::move(message), std::move(hint), locator_.token_at(mark.pos))};
-  }
-  [[noreturn]] void refuse_alias(const YAML::Mark& mark) const {
-    refuse(mark, "scene.alias", "in YAML a word that starts with * is a reference to an anchor, which scene files do not have",
-           "a notation is text, write it in quotes: orbifold: \"*22222\"");
   }
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!") refuse(mark, "scene.tag", "YAML tags (!name) are not part of a scene file", "remove the tag");
@@ -173,10 +176,9 @@ Diagnostic unclosed(const YAML::ParserException& exception, const Locator& locat
 }
 
 Diagnostic translate(const YAML::ParserException& exception, const Locator& locator, const std::optional<SourceSpan>& opened) {
-  if (exception.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR || exception.msg == YAML::ErrorMsg::ALIAS_NOT_FOUND || exception.msg == YAML::ErrorMsg::CHAR_IN_ALIAS)
-    return make_error("scene.alias", "in YAML a word that starts with * is a reference to an anchor, which scene files do not have",
-                      "a notation is text, write it in quotes: orbifold: \"*22222\"", locator.token_at(exception.mark.pos));
   const std::size_t offset = exception.mark.is_null() ? 0 : static_cast<std::size_t>(exception.mark.pos);
+  if (exception.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR || exception.msg == YAML::ErrorMsg::ALIAS_NOT_FOUND || exception.msg == YAML::ErrorMsg::CHAR_IN_ALIAS)
+    return alias(locator, offset > 0 && locator.text().substr(offset - 1, 1) == "*" && locator.text().substr(offset, 1) != "*" ? offset - 1 : offset);
   if (const auto tab = tab_in_indentation(locator.text(), offset))
     return make_error("scene.tab", "a tab stands in the indentation", "YAML indents with spaces: use two spaces for each level", locator.at(*tab));
   if (exception.msg == YAML::ErrorMsg::END_OF_MAP_FLOW || exception.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) return unclosed(exception, locator, opened);

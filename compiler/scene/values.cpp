@@ -32,6 +32,8 @@ std::string described(const Node& node) {
   return node.quoted ? "the text " + shown : number_of(node) ? shortened(node.text) : shown;
 }
 
+std::string keys_of(const std::vector<std::string>& known) { return fmt::format("{} {}", known.size() == 1 ? "its only key is" : "its keys are", listed(known, "and")); }
+
 bool is_truth_value(std::string_view text) {
   return text == "true" || text == "True" || text == "TRUE" || text == "false" || text == "False" || text == "FALSE";
 }
@@ -63,9 +65,9 @@ std::optional<double> number_of(const Node& node) {
   return parse_number(node.text);
 }
 
-std::string either(const std::vector<std::string>& words) {
+std::string listed(const std::vector<std::string>& words, std::string_view last) {
   std::string all;
-  for (std::size_t i = 0; i < words.size(); ++i) all += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  for (std::size_t i = 0; i < words.size(); ++i) all += i == 0 ? words[i] : i + 1 == words.size() ? fmt::format(" {} {}", last, words[i]) : fmt::format(", {}", words[i]);
   return all;
 }
 
@@ -94,9 +96,9 @@ void Reader::wrong_type(const Node& node, std::string_view what, std::string_vie
 }
 
 void Reader::unknown_value(const Node& node, std::string_view what, const std::vector<std::string>& known) {
-  if (node.kind != NodeKind::scalar) return wrong_type(node, what, either(known));
+  if (node.kind != NodeKind::scalar) return wrong_type(node, what, listed(known));
   const std::string nearest = nearest_word(node.text, known);
-  error("scene.unknown-value", node.span, fmt::format("{} must be {}, but is {}", what, either(known), described(node)),
+  error("scene.unknown-value", node.span, fmt::format("{} must be {}, but is {}", what, listed(known), described(node)),
         nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest));
 }
 
@@ -138,7 +140,8 @@ bool Reader::boolean(const Node& node, std::string_view what, bool fallback) {
 std::optional<std::string> Reader::text(const Node& node, std::string_view what) {
   const bool text = node.kind == NodeKind::scalar && (node.quoted || !(number_of(node) || is_truth_value(node.text)));
   if (text && !node.text.empty()) return node.text;
-  wrong_type(node, what, "text", node.kind == NodeKind::scalar && !node.text.empty() ? "write it in quotes" : "");
+  if (text) error("scene.wrong-type", node.span, fmt::format("{} must not be empty", what));
+  else wrong_type(node, what, "text", node.kind == NodeKind::scalar ? "write it in quotes" : "");
   return std::nullopt;
 }
 
@@ -189,7 +192,7 @@ Angle Reader::angle(const Node& node, std::string_view what, const Angle& fallba
     return fallback;
   }
   if (!contains(degrees, radians ? angle.degrees() : *value)) {
-    error("scene.out-of-range", node.span, fmt::format("{} must be {} degrees, but is {}", what, to_string(degrees), described(node)));
+    error("scene.angle-out-of-range", node.span, fmt::format("{} must be {} degrees, but is {}", what, to_string(degrees), described(node)));
     return fallback;
   }
   return angle;
@@ -209,14 +212,14 @@ bool Reader::list(const Node& node, std::string_view what, std::size_t count, st
 
 Fields::Fields(Reader& reader, const Node& node, std::string what, std::vector<std::string> known) : reader_(reader), node_(node), what_(std::move(what)) {
   if (node.kind != NodeKind::map) {
-    reader.wrong_type(node, what_, "a map of keys and values", node.kind == NodeKind::nothing ? "" : "its keys are " + either(known));
+    reader.wrong_type(node, what_, "a map of keys and values", node.kind == NodeKind::nothing ? "" : keys_of(known));
     return;
   }
   for (const Node& key : node.keys) {
     if (std::find(known.begin(), known.end(), key.text) != known.end()) continue;
     const std::string nearest = nearest_word(key.text, known);
     reader.error("scene.unknown-key", key.span, fmt::format("{} has no key `{}`", what_, shortened(key.text)),
-                 nearest.empty() ? "its keys are " + either(known) : fmt::format("did you mean `{}`?", nearest));
+                 nearest.empty() ? keys_of(known) : fmt::format("did you mean `{}`?", nearest));
   }
 }
 

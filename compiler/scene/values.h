@@ -110,6 +110,6 @@ class Fields {
 /// The number that a plain scalar is by YAML 1.2's core schema (decimal; .inf and .nan too), if it is one.
 [[nodiscard]] std::optional<double> number_of(const Node& node);
 /// "a, b or c".
-[[nodiscard]] std::string either(const std::vector<std::string>& words);
+[[nodiscard]] std::string listed(const std::vector<std::string>& words, std::string_view last = "or");
 
 }  // namespace orbc::scene
