@@ -196,7 +196,8 @@ TEST_CASE("materials are presets, colours or maps", "[scene]") {
   CHECK(o[5].material->pattern == Pattern::marble);
   CHECK(o[5].material->second == from_hex(0x333333));
   CHECK(o[6].material->pattern == Pattern::granite);
-  CHECK(o[7].material->color == *named_color("gold"));   // the colour, not the preset
+  CHECK(o[7].material->pattern == Pattern::marble);
+  CHECK(o[8].material->color == *named_color("gold"));   // the colour, not the preset
 }
 
 TEST_CASE("lamps are of six kinds", "[scene]") {
