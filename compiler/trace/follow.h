@@ -44,7 +44,8 @@ struct SurfacePoint {
   int look = -1;                    ///< index into PlacedRoom::looks: the triangle's; of walls, floor and ceiling the part's first
   bool checker_second = false;      ///< walls, floor, ceiling with a checker: the cell is of `material.second`
   scene::Color color{0.8, 0.8, 0.8};  ///< the look's flat colour; of checkers on walls, floor and ceiling the cell's
-  double uv[2] = {0, 0};            ///< triangles: interpolated. Floor and ceiling: axial coordinates, walls: (arc from the start, z)
+  double uv[2] = {0, 0};            ///< triangles: interpolated. Floor and ceiling: axial coordinates, walls: (arc from the start, z);
+                                    ///< with a texture: its uv, in repeats (not wrapped)
   geometry::Vector3 pattern_position;  ///< triangles with pattern positions: interpolated
   int wall = -1;                    ///< kind wall: which; a ray that leaves it starts with leaves_wall = wall
 };

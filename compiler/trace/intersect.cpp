@@ -17,6 +17,35 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+struct ArcTable {
+  double at[17];
+};
+const ArcTable kArcs = [] {
+  ArcTable table;
+  for (int i = 0; i <= 16; ++i) table.at[i] = std::atan(i / 16.0);
+  return table;
+}();
+
+/// x − x³/3·κ + x⁵/5 − … = atanκ(x) for |x| ≤ 1/32, to the last bit but one.
+template <int kCurvature>
+double small_arc(double x) {
+  const double y = -kCurvature * x * x;
+  return x + x * y * (1.0 / 3 + y * (1.0 / 5 + y * (1.0 / 7 + y * (1.0 / 9 + y * (1.0 / 11)))));
+}
+
+/// atan2(v, p): octant, nearest sixteenth from the table, addition theorem. Error below 3e-16.
+double arc_of_circle(double p, double v) {
+  const double ap = std::fabs(p), av = std::fabs(v);
+  const double small = ap < av ? ap : av, big = ap < av ? av : ap;
+  const double r = small / big;
+  const int i = static_cast<int>(r * 16 + 0.5);
+  const double node = i * (1.0 / 16);
+  double s = kArcs.at[i] + small_arc<1>((r - node) / (1 + r * node));
+  if (ap < av) s = kPi / 2 - s;
+  if (p < 0) s = kPi - s;
+  return v < 0 ? -s : s;
+}
+
 double dot(const Ambient& covector, const Vertex& v) { return covector.w * v.w + covector.x * v.x + covector.y * v.y; }
 
 /// A point of an edge over the ray: p and v as in RayPlane, height, and the weight of the edge's first vertex.
@@ -28,40 +57,91 @@ struct Seen {
   double h, p, v, z;
 };
 
-double arc(Space space, double p, double v) {
-  if (space == Space::spherical) return std::atan2(v, p);
-  return space == Space::hyperbolic ? std::atanh(v / p) : v / p;
+/// Arc length of the point (p, v). A function of its own: the same bits on every machine, and cheap enough for two calls a triangle.
+template <Space kSpace>
+double arc(double p, double v) {
+  if constexpr (kSpace == Space::euclidean) return v / p;
+  if constexpr (kSpace == Space::hyperbolic) return 0.5 * std::log((p + v) / (p - v));
+  return arc_of_circle(p, v);
 }
 
-Crossing cross_edge(Space space, const Seen& i, const Seen& j) {
-  const double hi = std::fabs(i.h), hj = std::fabs(j.h), sum = hi + hj;
+template <Space kSpace>
+Crossing cross_edge(const Seen& i, const Seen& j) {
+  const double hi = std::fabs(i.h), hj = std::fabs(j.h), by_sum = 1 / (hi + hj);
   Crossing x{};
-  x.p = (hj * i.p + hi * j.p) / sum;
-  x.v = (hj * i.v + hi * j.v) / sum;
-  x.z = (hj * i.z + hi * j.z) / sum;
-  x.weight = hj / sum;
-  x.s = arc(space, x.p, x.v);
+  x.p = (hj * i.p + hi * j.p) * by_sum;
+  x.v = (hj * i.v + hi * j.v) * by_sum;
+  x.z = (hj * i.z + hi * j.z) * by_sum;
+  x.weight = hj * by_sum;
+  x.s = arc<kSpace>(x.p, x.v);
   return x;
 }
 
 /// The curve over the ray between two crossings, and its distance G from the ray (shifted by `turn` on S²).
+template <Space kSpace>
 struct Strip {
-  Space space;
+  static constexpr int kCurvature = geometry::curvature(kSpace);
   Crossing a, b;
-  double c, m, z_ray, turn;
-  bool wrap;  ///< S²: the curve passes the antipode of the start; arcs below 0 count from there
+  double c, m, z_ray, turn = 0;
+  double dp, dv, dz, twist;         ///< b − a, and p_a·v_b − v_a·p_b = (p² + κv²)·ds/du everywhere
 
-  double s_at(double u) const {
-    const double s = arc(space, a.p + u * (b.p - a.p), a.v + u * (b.v - a.v));
-    return (wrap && s < 0 ? s + 2 * kPi : s) + turn;
+  Strip(const Crossing& from, const Crossing& to, const RayPlane& plane) : a(from), b(to), c(plane.c), m(plane.m), z_ray(plane.z) {
+    dp = b.p - a.p;
+    dv = b.v - a.v;
+    dz = b.z - a.z;
+    twist = a.p * b.v - a.v * b.p;
   }
-  double z_at(double u) const { return a.z + u * (b.z - a.z); }
-  double distance(double s, double z) const { return c * (z_ray - z) + m * s; }
-  double value(double u) const { return distance(s_at(u), z_at(u)); }
-  double slope(double u) const {
-    const double p = a.p + u * (b.p - a.p), v = a.v + u * (b.v - a.v);
-    return m * (a.p * b.v - a.v * b.p) / (p * p + geometry::curvature(space) * v * v) - c * (b.z - a.z);
+  double distance(double s, double z) const { return c * (z_ray - z) + m * (s + turn); }
+  double z_at(double u) const { return a.z + u * dz; }
+
+  struct Place {
+    double u, p, v, s;
+  };
+  Place start() const { return {0, a.p, a.v, a.s}; }
+  /// The place at u, its arc from that of another place by the addition theorem.
+  Place move(const Place& from, double u) const {
+    if constexpr (kSpace == Space::euclidean) {
+      const double p = a.p + u * dp, v = a.v + u * dv;
+      return {u, p, v, v / p};
+    }
+    Place to{u, a.p + u * dp, a.v + u * dv, 0};
+    const double over = (u - from.u) * twist, under = from.p * to.p + kCurvature * from.v * to.v;
+    if (std::fabs(over) < 0.03125 * under)
+      to.s = from.s + small_arc<kCurvature>(over / under);
+    else if constexpr (kSpace == Space::spherical)
+      to.s = from.s + std::atan2(over, under);
+    else
+      to.s = from.s + std::atanh(over / under);
+    return to;
   }
+  double value(const Place& at) const { return distance(at.s, z_at(at.u)); }
+  double slope(const Place& at) const { return m * twist / (at.p * at.p + kCurvature * at.v * at.v) - c * dz; }
+};
+
+/// The root of a monotone piece with a change of sign: Newton from the secant, kept in its bracket; the place of the root.
+template <Space kSpace>
+typename Strip<kSpace>::Place solve(const Strip<kSpace>& strip, double lo, double hi, double g_lo, double g_hi) {
+  const double scale = 1e-16 * (1 + std::fabs(strip.a.s) + std::fabs(strip.a.z) + std::fabs(strip.z_ray));
+  auto place = strip.move(strip.start(), lo + (hi - lo) * (g_lo / (g_lo - g_hi)));
+  for (int i = 0; i < 100; ++i) {
+    const double g = strip.value(place), slope = strip.slope(place);
+    if (std::fabs(g) <= scale) break;
+    ((g < 0) == (g_lo < 0) ? lo : hi) = place.u;
+    double next = place.u - g / slope;
+    const bool inside = next > lo && next < hi;
+    if (!inside) {
+      if (std::fabs(next - place.u) * std::fabs(slope) <= 8 * scale || hi - lo < 1e-16) break;
+      next = 0.5 * (lo + hi);
+    }
+    const double step = next - place.u;
+    place = strip.move(place, next);
+    if (inside && std::fabs(step) < 1e-8) break;  // the next step would be its square
+  }
+  return place;
+}
+
+struct Found {
+  double t = kEndless, u = 0;
 };
 
 /// Roots of A u² + B u + C in (0, 1), in order; numerically stable form.
@@ -77,53 +157,43 @@ int roots_inside(double A, double B, double C, double out[2]) {
   return count;
 }
 
-/// The root of a monotone piece with a change of sign: Newton from the secant, kept in its bracket.
-double solve(const Strip& strip, double lo, double hi, double g_lo, double g_hi) {
-  double u = lo + (hi - lo) * (g_lo / (g_lo - g_hi));
-  for (int i = 0; i < 80; ++i) {
-    if (!(u > lo && u < hi)) u = 0.5 * (lo + hi);
-    const double g = strip.value(u);
-    if (g == 0) return u;
-    ((g < 0) == (g_lo < 0) ? lo : hi) = u;
-    const double next = u - g / strip.slope(u);
-    if (std::fabs(next - u) <= 1e-15 || hi - lo <= 1e-16) return next > lo && next < hi ? next : u;
-    u = next;
-  }
-  return u;
+/// Where G′ changes sign in (0, 1), in order. G′·(p² + κv²) = m·twist − c·dz·(p² + κv²), a quadratic in u.
+template <Space kSpace>
+int turning_points(const Strip<kSpace>& strip, double out[2]) {
+  if constexpr (kSpace == Space::euclidean) return 0;
+  constexpr int k = Strip<kSpace>::kCurvature;
+  const double rise = strip.c * strip.dz;
+  const double A = rise * (strip.dp * strip.dp + k * strip.dv * strip.dv);
+  const double B = 2 * rise * (strip.a.p * strip.dp + k * strip.a.v * strip.dv);
+  const double C = rise * (strip.a.p * strip.a.p + k * strip.a.v * strip.a.v) - strip.m * strip.twist;
+  const double end = A + B + C;
+  const bool vertex_inside = B * (2 * A + B) < 0;
+  if ((C > 0) == (end > 0) && !vertex_inside) return 0;
+  return roots_inside(A, B, C, out);
 }
 
-struct Found {
-  double t = kEndless, u = 0;
-};
-
 /// The first root of one strip with t in (t_min, t_max).
-Found first_root(const Strip& strip, double t_min, double t_max) {
-  double cut[4] = {0, 1, 1, 1};
-  int pieces = 1;
-  if (strip.space != Space::euclidean) {
-    const double dp = strip.b.p - strip.a.p, dv = strip.b.v - strip.a.v, rise = strip.c * (strip.b.z - strip.a.z);
-    const double k = geometry::curvature(strip.space), w = strip.a.p * strip.b.v - strip.a.v * strip.b.p;
-    double inside[2];
-    const int count = roots_inside(rise * (dp * dp + k * dv * dv), 2 * rise * (strip.a.p * dp + k * strip.a.v * dv),
-                                   rise * (strip.a.p * strip.a.p + k * strip.a.v * strip.a.v) - strip.m * w, inside);
-    for (int i = 0; i < count; ++i) cut[pieces++] = inside[i];
-    cut[pieces] = 1;
-  }
+template <Space kSpace>
+Found first_root(const Strip<kSpace>& strip, double t_min, double t_max) {
+  double cut[4] = {0, 1, 1, 1}, g[4];
+  const int turns = turning_points(strip, cut + 1);
+  cut[turns + 1] = 1;
+  g[0] = strip.distance(strip.a.s, strip.a.z);           // the ends: the edges' own values, bit by bit
+  g[turns + 1] = strip.distance(strip.b.s, strip.b.z);
+  if (turns == 0 && (g[0] < 0) == (g[1] < 0)) return {};
+  for (int i = 1; i <= turns; ++i) g[i] = strip.value(strip.move(strip.start(), cut[i]));
   Found best;
-  double g[4];
-  for (int i = 0; i <= pieces; ++i) {
-    const bool end = i == 0 || i == pieces;  // the ends must be the edges' own values, bit by bit
-    g[i] = end ? strip.distance((i == 0 ? strip.a.s : strip.b.s) + strip.turn, i == 0 ? strip.a.z : strip.b.z) : strip.value(cut[i]);
-    if (i == 0 || (g[i] < 0) == (g[i - 1] < 0)) continue;
-    const double u = strip.space == Space::euclidean ? g[0] / (g[0] - g[1]) : solve(strip, cut[i - 1], cut[i], g[i - 1], g[i]);
-    const double t = strip.c * strip.s_at(u) + strip.m * (strip.z_at(u) - strip.z_ray);
-    if (t > t_min && t < t_max && t < best.t) best = {t, u};
+  for (int i = 0; i <= turns; ++i) {
+    if ((g[i] < 0) == (g[i + 1] < 0)) continue;
+    const auto place = kSpace == Space::euclidean ? strip.move(strip.start(), g[0] / (g[0] - g[1])) : solve(strip, cut[i], cut[i + 1], g[i], g[i + 1]);
+    const double t = strip.c * (place.s + strip.turn) + strip.m * (strip.z_at(place.u) - strip.z_ray);
+    if (t > t_min && t < t_max && t < best.t) best = {t, place.u};
   }
   return best;
 }
 
 /// S²: the same triangle is met again every full turn; the first turn on which the heights fit.
-Found first_turn(Strip strip, double t_min, double t_max) {
+Found first_turn(Strip<Space::spherical> strip, double t_min, double t_max) {
   double first = 0, last = 1;
   if (strip.m != 0) {
     const double za = strip.c * (strip.a.z - strip.z_ray) / strip.m, zb = strip.c * (strip.b.z - strip.z_ray) / strip.m;
@@ -136,6 +206,38 @@ Found first_turn(Strip strip, double t_min, double t_max) {
     if (found.t < t_max) return found;
   }
   return {};
+}
+
+template <Space kSpace>
+TriangleHit meet(const RayPlane& plane, const Vertex* const vertex[3], double t_max) {
+  Seen seen[3];
+  for (int i = 0; i < 3; ++i) seen[i].h = dot(plane.side, *vertex[i]);
+  const bool left[3] = {seen[0].h >= 0, seen[1].h >= 0, seen[2].h >= 0};
+  if (left[0] == left[1] && left[1] == left[2]) return {};
+  for (int i = 0; i < 3; ++i) {
+    seen[i].p = dot(plane.forward, *vertex[i]);
+    seen[i].v = dot(plane.sideward, *vertex[i]);
+    seen[i].z = vertex[i]->z;
+  }
+  const int o = left[0] == left[1] ? 2 : left[0] == left[2] ? 1 : 0;  // alone on its side
+  const int j = o == 2 ? 0 : o + 1, k = o == 0 ? 2 : o - 1;
+  Strip<kSpace> strip(cross_edge<kSpace>(seen[o], seen[j]), cross_edge<kSpace>(seen[o], seen[k]), plane);
+  Found found;
+  if constexpr (kSpace == Space::spherical) {
+    // The curve passes the antipode of the start: arcs below 0 count from there.
+    if (std::fabs(strip.a.s - strip.b.s) > kPi) (strip.a.s < 0 ? strip.a.s : strip.b.s) += 2 * kPi;
+    found = plane.c * t_max > kPi * (1 + 1e-12) ? first_turn(strip, plane.t_min, t_max) : first_root(strip, plane.t_min, t_max);
+  } else {
+    found = first_root(strip, plane.t_min, t_max);
+  }
+  if (!(found.t < t_max)) return {};
+  TriangleHit hit;
+  hit.found = true;
+  hit.t = found.t;
+  hit.b[j] = (1 - found.u) * (1 - strip.a.weight);
+  hit.b[k] = found.u * (1 - strip.b.weight);
+  hit.b[o] = 1 - hit.b[j] - hit.b[k];
+  return hit;
 }
 
 }  // namespace
@@ -157,36 +259,9 @@ RayPlane plane_of(Space space, const Ray& ray) {
 }
 
 TriangleHit intersect(const RayPlane& plane, const Vertex& a, const Vertex& b, const Vertex& c, double t_max) {
-  const Vertex* vertex[3] = {&a, &b, &c};
-  Seen seen[3];
-  for (int i = 0; i < 3; ++i) seen[i].h = dot(plane.side, *vertex[i]);
-  const bool left[3] = {seen[0].h >= 0, seen[1].h >= 0, seen[2].h >= 0};
-  if (left[0] == left[1] && left[1] == left[2]) return {};
-  for (int i = 0; i < 3; ++i) {
-    seen[i].p = dot(plane.forward, *vertex[i]);
-    seen[i].v = dot(plane.sideward, *vertex[i]);
-    seen[i].z = vertex[i]->z;
-  }
-  const int o = left[0] == left[1] ? 2 : left[0] == left[2] ? 1 : 0;  // alone on its side
-  const int j = (o + 1) % 3, k = (o + 2) % 3;
-  Strip strip{plane.space, cross_edge(plane.space, seen[o], seen[j]), cross_edge(plane.space, seen[o], seen[k]),
-              plane.c, plane.m, plane.z, 0, false};
-  Found found;
-  if (plane.space == Space::spherical) {
-    strip.wrap = std::fabs(strip.a.s - strip.b.s) > kPi;
-    if (strip.wrap) (strip.a.s < 0 ? strip.a.s : strip.b.s) += 2 * kPi;
-    found = plane.c * t_max > kPi * (1 + 1e-12) ? first_turn(strip, plane.t_min, t_max) : first_root(strip, plane.t_min, t_max);
-  } else {
-    found = first_root(strip, plane.t_min, t_max);
-  }
-  if (!(found.t < t_max)) return {};
-  TriangleHit hit;
-  hit.found = true;
-  hit.t = found.t;
-  hit.b[j] = (1 - found.u) * (1 - strip.a.weight);
-  hit.b[k] = found.u * (1 - strip.b.weight);
-  hit.b[o] = 1 - hit.b[j] - hit.b[k];
-  return hit;
+  const Vertex* const vertex[3] = {&a, &b, &c};
+  if (plane.space == Space::euclidean) return meet<Space::euclidean>(plane, vertex, t_max);
+  return plane.space == Space::spherical ? meet<Space::spherical>(plane, vertex, t_max) : meet<Space::hyperbolic>(plane, vertex, t_max);
 }
 
 }  // namespace orbc::trace

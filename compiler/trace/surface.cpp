@@ -59,12 +59,20 @@ void fill_triangle(const TraceScene& scene, const Hit& hit, SurfacePoint& point)
 }
 
 /// Looks up the panel's look and which cell of its checker holds uv (decided like the panels are cut: parity of the cell's numbers).
+/// Textures: uv in repeats, as the panels carry them: the disk chart at true size in the centre, on walls (arc length, z), v downwards.
 void fill_panel(const TraceScene& scene, const Panel& panel, SurfacePoint& point) {
   point.part = panel.part;
   point.look = panel.look;
   if (panel.look < 0) return;
   const place::Look& look = scene.room->looks[panel.look];
   point.color = look.color;
+  if (look.material.pattern == scene::Pattern::texture) {
+    auto at = std::complex<double>(point.uv[0], point.uv[1]);
+    if (point.kind != PartKind::wall)
+      at = (scene.prism.space == Space::euclidean ? 1.0 : 2.0) * geometry::disk_from_point(scene.prism.space, point.at.floor);
+    point.uv[0] = at.real() / look.material.cell;
+    point.uv[1] = -at.imag() / look.material.cell;
+  }
   if (look.material.pattern != scene::Pattern::checker) return;
   const double cells = std::floor(point.uv[0] / look.material.cell) + std::floor(point.uv[1] / look.material.cell);
   point.checker_second = std::fmod(cells, 2) != 0;

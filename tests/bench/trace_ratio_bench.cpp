@@ -1,0 +1,213 @@
+// The tracer against the limit: Embree's rtcIntersect1 on straight rays in the Euclidean room, walls analytic on both sides. Repetitions are
+// interleaved in one process and the medians' ratios printed, since absolute times drift. One thread: CPU time of the thread.
+// trace_ratio_bench [repetitions] [triangle counts…] [--threads]
+#include <pmmintrin.h>
+#include <time.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "tests/bench/trace_scenes.h"
+#ifdef ORBC_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+using namespace orbc;
+using namespace orbc::trace;
+using namespace orbc::trace::bench;
+
+namespace {
+
+double cpu_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+struct Work {
+  std::uint64_t rays = 0, hits = 0;
+};
+
+/// Follows a ray through the walls: the loop that both sides share, with `find` = what a ray meets.
+template <class Find>
+void bounce(const TraceScene& scene, Ray ray, int bounces, const Find& find, Work& work) {
+  for (int i = 0;; ++i) {
+    const Hit hit = find(ray);
+    ++work.rays;
+    work.hits += hit.target == Target::triangle;
+    if (hit.target != Target::wall || i >= bounces) return;
+    ray = reflected_in_wall(scene.prism, ray, hit.t, hit.wall);
+  }
+}
+
+#ifdef ORBC_EMBREE
+struct Embree {
+  RTCDevice device;
+  RTCScene scene;
+  explicit Embree(const place::PlacedMesh& mesh) {
+    device = rtcNewDevice("threads=2,isa=avx2");
+    scene = rtcNewScene(device);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.floor.size()));
+    for (std::size_t i = 0; i < mesh.floor.size(); ++i) {
+      v[3 * i] = static_cast<float>(mesh.floor[i].x);
+      v[3 * i + 1] = static_cast<float>(mesh.floor[i].y);
+      v[3 * i + 2] = static_cast<float>(mesh.z[i]);
+    }
+    auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) std::copy(mesh.triangles[i].begin(), mesh.triangles[i].end(), t + 3 * i);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+  }
+  ~Embree() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Hit closest(const TraceScene& room, const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query;
+    query.ray.org_x = static_cast<float>(ray.at.x);
+    query.ray.org_y = static_cast<float>(ray.at.y);
+    query.ray.org_z = static_cast<float>(ray.z);
+    query.ray.dir_x = static_cast<float>(ray.c * ray.along.x);
+    query.ray.dir_y = static_cast<float>(ray.c * ray.along.y);
+    query.ray.dir_z = static_cast<float>(ray.m);
+    query.ray.tnear = 0;
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.time = 0;
+    query.ray.mask = ~0u;
+    query.ray.flags = 0;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &query);
+    Hit hit;
+    if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+      hit.target = Target::triangle;
+      hit.t = query.ray.tfar;
+      hit.triangle = static_cast<int>(query.hit.primID);
+      hit.b[1] = query.hit.u;
+      hit.b[2] = query.hit.v;
+      return hit;
+    }
+    const Exit exit = exit_of(room.prism, ray);
+    hit.target = exit.surface >= 0 ? Target::wall : exit.surface == kFloor ? Target::floor : Target::ceiling;
+    hit.t = exit.t;
+    hit.wall = exit.surface;
+    return hit;
+  }
+};
+#endif
+
+struct Runner {
+  std::string name;
+  std::function<Work(std::size_t begin, std::size_t end)> run;
+  std::vector<double> times;
+  Work work;
+  double median() {
+    std::sort(times.begin(), times.end());
+    return times[times.size() / 2];
+  }
+  double rate() { return static_cast<double>(work.rays) / median() * 1e-6; }
+};
+
+template <class Find>
+Runner runner(const std::string& name, const Case& c, int bounces, Find find) {
+  return {name, [&c, bounces, find](std::size_t begin, std::size_t end) {
+            Work work;
+            for (std::size_t i = begin; i < end; ++i) bounce(c.scene, c.rays[i], bounces, find, work);
+            return work;
+          }, {}, {}};
+}
+
+void measure(std::vector<Runner>& runners, std::size_t rays, int repetitions, int threads) {
+  for (Runner& r : runners) r.times.clear();
+  for (int i = 0; i < repetitions; ++i)
+    for (Runner& r : runners) {
+      if (threads == 1) {
+        const double start = cpu_seconds();
+        r.work = r.run(0, rays);
+        r.times.push_back(cpu_seconds() - start);
+      } else {
+        const double start = wall_seconds();
+        Work other;
+        std::thread second([&] {
+          _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+          other = r.run(rays / 2, rays);
+        });
+        r.work = r.run(0, rays / 2);
+        second.join();
+        r.work.rays += other.rays;
+        r.times.push_back(wall_seconds() - start);
+      }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int repetitions = 7;
+  bool threads = false;
+  std::vector<int> sizes;
+  for (int i = 1; i < argc; ++i) {
+    if (std::string(argv[i]) == "--threads") threads = true;
+    else if (i == 1) repetitions = std::atoi(argv[i]);
+    else sizes.push_back(std::atoi(argv[i]));
+  }
+  if (sizes.empty()) sizes = {12500, 1000000};
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  for (const int size : sizes) {
+    const int around = size > 100000 ? 200 : 20, steps = size / (2 * around);
+    std::vector<Case> cases;
+    for (const auto space : {geometry::Space::euclidean, geometry::Space::spherical, geometry::Space::hyperbolic}) cases.push_back(make_case(space, steps, around));
+    for (Case& c : cases) {
+      const double cpu = cpu_seconds(), start = wall_seconds();
+      c.scene = prepare(c.placed);
+      std::printf("%s: %zu triangles, prepared in %.3f s (CPU %.3f s, one thread), %.1f bytes a triangle, %zu nodes, %zu blocks\n", c.name.c_str(), c.placed.parts[0].triangles.size(),
+                  wall_seconds() - start, cpu_seconds() - cpu, double(c.scene.objects->bytes()) / double(c.placed.parts[0].triangles.size()),
+                  c.scene.objects->charts()[0].nodes.size(), c.scene.objects->charts()[0].blocks.size());
+    }
+    for (const Case& c : cases) {
+      BvhCounts counts;
+      std::uint64_t hits = 0;
+      for (const Ray& ray : c.rays) hits += c.scene.objects->closest_counted(ray, c.name == "S2" && ray.c > 0 ? kPi / ray.c : kEndless, counts).triangle != kNone;
+      const double n = static_cast<double>(c.rays.size());
+      std::printf("%s: a camera ray visits %.2f nodes, %.2f blocks, %.3f candidates for %.3f hits\n", c.name.c_str(), double(counts.nodes) / n, double(counts.blocks) / n,
+                  double(counts.candidates) / n, double(hits) / n);
+    }
+#ifdef ORBC_EMBREE
+    const Embree embree(cases[0].placed.parts[0]);
+#endif
+    for (const int bounces : {0, 40}) {
+      std::vector<Runner> runners;
+#ifdef ORBC_EMBREE
+      runners.push_back(runner("Embree", cases[0], bounces, [&](const Ray& ray) { return embree.closest(cases[0].scene, ray); }));
+#endif
+      for (const Case& c : cases) runners.push_back(runner(c.name, c, bounces, [&c](const Ray& ray) { return closest(c.scene, ray); }));
+      measure(runners, cases[0].rays.size(), repetitions, 1);
+      std::printf("%7d triangles, %s, 1 thread:", size, bounces ? "mirrors" : "camera ");
+      for (Runner& r : runners) std::printf("  %s %.2f Mrays/s", r.name.c_str(), r.rate());
+      const std::size_t own = runners.size() - 3;
+      if (own) std::printf("  | of Embree: E2 %.2f S2 %.2f H2 %.2f", runners[own].rate() / runners[0].rate(), runners[own + 1].rate() / runners[0].rate(), runners[own + 2].rate() / runners[0].rate());
+      std::printf("  | curved/straight: S2 %.2f H2 %.2f\n", runners[own + 1].rate() / runners[own].rate(), runners[own + 2].rate() / runners[own].rate());
+      if (!threads) continue;
+      std::vector<double> one;
+      for (Runner& r : runners) one.push_back(r.rate());
+      measure(runners, cases[0].rays.size(), repetitions, 2);
+      std::printf("        two threads over one:");
+      for (std::size_t i = 0; i < runners.size(); ++i) std::printf("  %s %.2f", runners[i].name.c_str(), runners[i].rate() / one[i]);
+      std::printf("\n");
+    }
+  }
+}
