@@ -172,6 +172,10 @@ Result<Polygon> glued_polygon(const std::vector<CornerAngle>& angles, const std:
   const Cut& middle = *std::max_element(cuts.begin(), cuts.end(), [&](const Cut& a, const Cut& b) { return evenness(a) < evenness(b); });
   if (auto lines = Placing(angles, cuts).place(middle))
     if (auto polygon = closed_polygon(std::move(*lines))) return *std::move(polygon);
+  // With corners up to π/2 the pieces always fit; only 50 digits can have been too few.
+  if (std::all_of(angles.begin(), angles.end(), [](const CornerAngle& angle) { return angle.cos >= 0; }))
+    return make_error("room.no-certificate", "the room reaches more than 50 curvature radii from its centre, far more than double precision carries",
+                      "longer cuts, a decomposition with cuts on several walls, or the shape tangential reach less far");
   return make_error("room.no-such-shape", "corners this wide leave no room between cuts of these lengths", "choose other cuts or lengths, or the shape tangential");
 }
 

@@ -6,7 +6,7 @@
 namespace orbc::room {
 
 /// A closed interval that contains the true value. Every operation widens its result by 2^-160 of its size, far more than the half ulp (2^-168)
-/// of a basic operation and the few ulps of sqrt and atan2, so that it stays an enclosure whatever the rounding direction.
+/// of a basic operation or a square root and the few ulps of a sine, so that it stays an enclosure whatever the rounding direction.
 class Interval {
  public:
   Interval(double value) : low_(value), high_(value) {}
@@ -32,10 +32,6 @@ class Interval {
   }
   /// In: a > 0.
   friend Interval sqrt(const Interval& a) { return around(sqrt(a.low_), sqrt(a.high_)); }
-  /// In: y > 0. Decreasing in x; increasing in y for x > 0, else decreasing.
-  friend Interval atan2(const Interval& y, const Interval& x) {
-    return around(atan2(x.high_ >= 0 ? y.low_ : y.high_, x.high_), atan2(x.low_ >= 0 ? y.high_ : y.low_, x.low_));
-  }
 
  private:
   Interval(Real low, Real high) : low_(std::move(low)), high_(std::move(high)) {}

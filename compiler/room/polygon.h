@@ -39,7 +39,7 @@ struct Polygon {
 
 /// The hyperbolic polygon with these angles, glued along common perpendiculars of the given lengths; not centred.
 /// In:          N ≥ 4 angles and the N − 3 cuts of complete_cuts.
-/// Diagnostics: room.no-such-shape (only with corners wider than π/2).
+/// Diagnostics: room.no-such-shape (only with corners wider than π/2), room.no-certificate (too wide for 50 digits).
 [[nodiscard]] Result<Polygon> glued_polygon(const std::vector<CornerAngle>& angles, const std::vector<scene::Cut>& cuts);
 
 /// The hyperbolic polygon with these angles and N − 3 given side lengths (wall from 1 → length); not centred.

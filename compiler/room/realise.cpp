@@ -98,7 +98,6 @@ double area_of(const Polygon& polygon, const Rational& chi) {
 }
 
 Result<Room> certified(Room room, ShapeKind kind) {
-  room.certificate = certify(room);
   if (is_granted(room, room.certificate)) return room;
   const Certificate& c = room.certificate;
   if (room.space == Space::hyperbolic && room.circumradius > 12)
@@ -111,7 +110,9 @@ Result<Room> certified(Room room, ShapeKind kind) {
                     "corners this narrow, or orders this near to those of another space, are beyond double precision");
 }
 
-Result<Room> built(const notation::Orbifold& orbifold, const Shape& shape, bool allow_non_orbifold) {
+}  // namespace
+
+Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shape, bool allow_non_orbifold) {
   const Result<Space> classified = notation::classify(orbifold, shape.span);
   if (!classified) return classified.error();
   if (!allow_non_orbifold && !notation::is_orbifold(orbifold))
@@ -141,13 +142,13 @@ Result<Room> built(const notation::Orbifold& orbifold, const Shape& shape, bool 
     room.area = area_of(*polygon, chi);
   }
   room.orbifold = orbifold;
-  return certified(std::move(room), shape.kind);
+  room.certificate = certify(room);
+  return room;
 }
 
-}  // namespace
-
 Result<Room> realise(const notation::Orbifold& orbifold, const Shape& shape, bool allow_non_orbifold) {
-  Result<Room> room = built(orbifold, shape, allow_non_orbifold);
+  Result<Room> room = measured_room(orbifold, shape, allow_non_orbifold);
+  if (room) room = certified(*std::move(room), shape.kind);
   if (!room) return located(std::move(room).error(), shape.span);
   return room;
 }

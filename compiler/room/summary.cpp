@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "compiler/notation/print.h"
+#include "compiler/room/certificate.h"
 #include "compiler/room/polygon.h"
+#include "compiler/room/settle.h"
 
 namespace orbc::room {
 namespace {
@@ -28,6 +30,8 @@ Summary summarise(const Room& room) {
   s.inradius = room.inradius;
   s.circumradius = room.circumradius;
   s.area = room.area;
+  s.certificate = room.certificate;
+  s.certified = is_granted(room, room.certificate);
   s.translational_cover = translational_cover(room);
   const int walls = static_cast<int>(room.orbifold.corners.size());
   if (room.space == geometry::Space::hyperbolic && walls > 3) {
@@ -38,6 +42,12 @@ Summary summarise(const Room& room) {
   }
   s.moduli = static_cast<int>(s.moduli_names.size());
   return s;
+}
+
+Result<Summary> summarise(const notation::Orbifold& orbifold, const scene::Shape& shape, bool allow_non_orbifold) {
+  const Result<Room> room = measured_room(orbifold, shape, allow_non_orbifold);
+  if (!room) return located(room.error(), shape.span);
+  return summarise(*room);
 }
 
 }  // namespace orbc::room

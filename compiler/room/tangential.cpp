@@ -12,49 +12,67 @@ namespace {
 
 using geometry::Space;
 
-// Corners of equal angle, counted once: `*2^40` costs no more than one corner.
-template <class Number>
-struct Group {
-  Number sin_half, cos_half;
-  int count = 0;
+struct Value {
+  Real excess, slope;   // Σ θ − π and its derivative by u
 };
 
-template <class Number>
+// Σ θ(u) − π, over groups of equal corners.
 struct CircleEquation {
+  struct Group {
+    Real sin_half, cos_half;
+    int count = 0;
+  };
   int k = 0;
-  std::vector<Group<Number>> groups;
+  std::vector<Group> groups;
   std::size_t narrowest = 0;
   bool beyond = false;  // S²: the narrowest corner is seen from the centre under more than a right angle (θ > π/2)
 
-  struct Value {
-    Number excess, slope;
-  };
-  // Σ θ − π and its derivative by u: dθ/du = κ cos β / (2 √D (1 − κu)).
-  Value at(const Number& u) const {
-    using std::atan2;
-    using std::sqrt;
-    Number sum = 0, slope = 0;
+  // dθ/du = κ cos β / (2 √D (1 − κu)). The angles are not added but the vectors √D + i cos β multiplied, so that one arc tangent serves for
+  // all; how often the product has gone round is known from the sum in double.
+  [[nodiscard]] Value at(const Real& u) const {
+    Real x = -1, y = 0, slope = 0;
+    double sum = -std::numbers::pi;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-      const Group<Number>& g = groups[i];
-      Number d = g.sin_half * g.sin_half - k * u;
-      if (d < 0) d = 0;
-      const Number root = sqrt(d);
-      const Number theta = atan2(g.cos_half, root), rate = root > 0 ? Number(k * g.cos_half / (2 * root * (1 - k * u))) : Number(0);
-      const bool over = beyond && i == narrowest;
-      sum += over ? Number((g.count - 1) * theta + pi() - theta) : Number(g.count * theta);
-      slope += (over ? g.count - 2 : g.count) * rate;
+      const Group& g = groups[i];
+      const Real d = g.sin_half * g.sin_half - k * u;
+      Real root = d > 0 ? sqrt(d) : Real(0);
+      if (beyond && i == narrowest) root = -root;
+      sum += g.count * std::atan2(static_cast<double>(g.cos_half), static_cast<double>(root));
+      if (root != 0) slope += g.count * k * g.cos_half / (2 * root * (1 - k * u));
+      for (int j = 0; j < g.count; ++j) {
+        const Real turned = x * root - y * g.cos_half;
+        y = x * g.cos_half + y * root;
+        x = turned;
+      }
     }
-    return {sum - pi(), slope};
-  }
-  static Number pi() {
-    if constexpr (std::is_same_v<Number, double>) return std::numbers::pi;
-    else return real_pi();
+    const Real excess = atan2(y, x);
+    return {excess + 2 * real_pi() * std::round((sum - static_cast<double>(excess)) / (2 * std::numbers::pi)), slope};
   }
 };
 
-// Newton's method that never leaves the bracket [low, high], on whose ends the excess has the signs of −rising and rising.
-template <class Number>
-Number solve(const CircleEquation<Number>& equation, Number low, Number high, Number u, bool rising, const Number& precision) {
+// The same in plain double, for a start value.
+struct RoughEquation {
+  const CircleEquation& fine;
+  struct RoughValue {
+    double excess, slope;
+  };
+  [[nodiscard]] RoughValue at(double u) const {
+    RoughValue value{-std::numbers::pi, 0};
+    for (std::size_t i = 0; i < fine.groups.size(); ++i) {
+      const auto& g = fine.groups[i];
+      const double s = static_cast<double>(g.sin_half), c = static_cast<double>(g.cos_half), d = s * s - fine.k * u;
+      double root = d > 0 ? std::sqrt(d) : 0;
+      if (fine.beyond && i == fine.narrowest) root = -root;
+      value.excess += g.count * std::atan2(c, root);
+      if (root != 0) value.slope += g.count * fine.k * c / (2 * root * (1 - fine.k * u));
+    }
+    return value;
+  }
+};
+
+// Newton's method that never leaves the bracket [low, high]; `rising`: the excess rises with u.
+template <class Number, class Equation>
+Number solve(const Equation& equation, Number low, Number high, Number u, bool rising, const Number& precision) {
   for (int i = 0; i < 400; ++i) {
     const auto value = equation.at(u);
     if (value.excess == 0) return u;
@@ -64,21 +82,21 @@ Number solve(const CircleEquation<Number>& equation, Number low, Number high, Nu
     if (!(next > low && next < high)) next = (low + high) / 2;
     const Number step = next > u ? next - u : u - next;
     u = next;
+    // Newton squares the error: a step this small leaves nothing behind.
     if (step <= precision * u) return u;
   }
   return u;
 }
 
-template <class Number>
-CircleEquation<Number> equation_of(Space space, const std::vector<CornerAngle>& angles) {
-  CircleEquation<Number> equation{geometry::curvature(space), {}, 0, false};
+CircleEquation equation_of(Space space, const std::vector<CornerAngle>& angles) {
+  CircleEquation equation{geometry::curvature(space), {}, 0, false};
   std::vector<const CornerAngle*> kinds;
   for (const CornerAngle& angle : angles) {
     std::size_t i = 0;
     while (i < kinds.size() && kinds[i]->angle != angle.angle) ++i;
     if (i == kinds.size()) {
       kinds.push_back(&angle);
-      equation.groups.push_back({static_cast<Number>(angle.sin_half), static_cast<Number>(angle.cos_half), 0});
+      equation.groups.push_back({angle.sin_half, angle.cos_half, 0});
     }
     ++equation.groups[i].count;
   }
@@ -93,8 +111,7 @@ struct Circle {
 };
 
 std::optional<Circle> inscribed_circle(Space space, const std::vector<CornerAngle>& angles) {
-  CircleEquation<double> rough = equation_of<double>(space, angles);
-  CircleEquation<Real> fine = equation_of<Real>(space, angles);
+  CircleEquation fine = equation_of(space, angles);
   // H²: Σ θ falls from more than π at u = 0; asin x ≤ πx/2 shows that cosh r = N/2 is beyond the root.
   // S²: Σ θ rises from less than π until the narrowest corner's θ reaches π/2; from there its other branch leads back to u = 0.
   const double n = static_cast<double>(angles.size());
@@ -106,14 +123,14 @@ std::optional<Circle> inscribed_circle(Space space, const std::vector<CornerAngl
     rising = fine.at(high).excess >= 0;
     if (!rising) {
       if (fine.groups[fine.narrowest].count > 1) return std::nullopt;
-      rough.beyond = fine.beyond = true;
+      fine.beyond = true;
       if (fine.at(0).excess <= 0) return std::nullopt;
     }
   }
   const double top = static_cast<double>(high);
-  double start = solve<double>(rough, 0, top, top / 16, rising, 1e-14);
+  double start = solve<double>(RoughEquation{fine}, 0, top, top / 16, rising, 1e-14);
   if (!(start > 0 && start < top)) start = top / 16;
-  return Circle{solve<Real>(fine, 0, high, start, rising, ldexp(Real(1), -150)), fine.beyond};
+  return Circle{solve<Real>(fine, 0, high, start, rising, ldexp(Real(1), -80)), fine.beyond};
 }
 
 struct Direction {
