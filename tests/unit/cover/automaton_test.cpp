@@ -175,6 +175,18 @@ TEST_CASE("the image of a minimal root comes back under the same wall", "[cover]
   }
 }
 
+TEST_CASE("all positive roots of a finite group are minimal", "[cover]") {
+  for (const char* text : {"*", "*22", "*55", "*222", "*22(17)", "*2(17)2", "*(17)22", "*233", "*432", "*352"}) {
+    CAPTURE(text);
+    const MinimalRoots roots(orbifold(text));
+    bool closed = true;
+    for (MinimalRoots::Root root = 0; root < roots.count(); ++root)
+      for (int wall = 0; wall < roots.walls(); ++wall) closed = closed && (roots.image(wall, root) >= 0) == (root != wall);
+    CHECK(closed);
+    CHECK(roots.count() == *notation::longest_length(orbifold(text)));
+  }
+}
+
 TEST_CASE("any word has the normal form of its element", "[cover]") {
   std::mt19937 random(7);
   for (const char* text : {"*235", "*237", "*732", "*245", "*333", "*22222", "*2323", "**", "*44"}) {
