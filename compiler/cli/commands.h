@@ -59,6 +59,18 @@ struct RenderArguments {
   CompileArguments compile;
   std::string engine = "tracer";
   int samples = 1;
+  std::string pass = "color";       ///< tracer: what to draw
+};
+
+struct VerifyArguments {
+  CompileArguments compile;
+  int samples = 1;
+  bool blender = false;
+  int within = 2;                   ///< steps of 1/255: 1, 2, 4 or 8
+  double threshold = 0.995;         ///< share of pixels that must agree so
+  double off_edge = 1e-5;           ///< share of pixels that may differ by more than 2/255 off every edge
+  std::string difference;           ///< a picture of the differences
+  std::string keep;                 ///< stem for both pictures
 };
 
 /// Each command returns the exit code: 0 done, 1 the scene is wrong, 2 usage, 3 the machine.
@@ -68,6 +80,7 @@ int new_scene(const NewArguments& arguments, const Common& common);
 int check(const CheckArguments& arguments, const Common& common);
 int compile(const CompileArguments& arguments, const Common& common);
 int render(const RenderArguments& arguments, const Common& common);
+int verify(const VerifyArguments& arguments, const Common& common);
 
 /// Parses the command line and runs the command.
 int run(int argc, char** argv);

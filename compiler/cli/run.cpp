@@ -12,11 +12,12 @@
 #include "compiler/cli/manual.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/progress_bar.h"
+#include "compiler/cli/support.h"
 
 namespace orbc::cli {
 namespace {
 
-constexpr int kUsage = 2, kMachine = 3, kInterrupted = 130;
+constexpr int kInterrupted = 130;
 
 void add_common(CLI::App& command, Common& common) {
   command.add_flag("-q,--quiet", common.quiet, "Neither progress nor summary; errors only");
@@ -93,8 +94,37 @@ void define_render(CLI::App& app, RenderArguments& a, Common& common) {
   c->add_option("-o,--output", a.compile.output, "The picture (PNG)")->required()->type_name("FILE");
   c->add_option("--engine", a.engine, "Who draws: povray, blender or tracer")->capture_default_str()->check(CLI::IsMember({"povray", "blender", "tracer"}))->type_name("NAME");
   c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");
+  c->add_option("--pass", a.pass, "Tracer: what to draw; an .exr holds all of them")->capture_default_str()
+      ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
   add_compile_options(*c, a.compile);
   c->footer("Examples:\n  orbc render s.yaml -o s.png\n  orbc render s.yaml -o s.png --engine povray --samples 9\n  orbc render s.yaml -o pano.png --projection panorama --size 2048x1024");
+  add_common(*c, common);
+}
+
+void define_trace(CLI::App& app, RenderArguments& a, Common& common) {
+  CLI::App* c = app.add_subcommand("trace", "Draw the reference picture: geodesic rays and real mirrors, no copies");
+  add_scene(*c, a.compile.scene);
+  c->add_option("-o,--output", a.compile.output, "The picture: .png, or .exr with all passes in floating point")->required()->type_name("FILE");
+  c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");
+  c->add_option("--pass", a.pass, "What to draw; an .exr holds all of them")->capture_default_str()
+      ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
+  c->footer("Examples:\n  orbc trace s.yaml -o s.png --samples 16\n  orbc trace s.yaml -o s.exr\n  orbc trace s.yaml -o depth.png --pass depth");
+  add_common(*c, common);
+}
+
+void define_verify(CLI::App& app, VerifyArguments& a, Common& common) {
+  CLI::App* c = app.add_subcommand("verify", "Draw a scene by both roads, export and tracer, and compare the pictures pixel by pixel");
+  add_scene(*c, a.compile.scene);
+  c->add_option("--samples", a.samples, "Samples per pixel, the same for both: 1 or 9")->capture_default_str()->check(CLI::IsMember({1, 9}))->type_name("N");
+  c->add_flag("--blender", a.blender, "Compare Blender's picture too");
+  c->add_option("--within", a.within, "A pixel agrees when it differs by at most so many steps of 1/255: 1, 2, 4 or 8")->capture_default_str()->check(CLI::IsMember({1, 2, 4, 8}))->type_name("N");
+  c->add_option("--threshold", a.threshold, "Share of pixels that must agree")->capture_default_str()->check(CLI::Range(0.0, 1.0))->type_name("SHARE");
+  c->add_option("--off-edge", a.off_edge, "Share of pixels that may differ by more than 2/255 away from every edge")->capture_default_str()->check(CLI::Range(0.0, 1.0))->type_name("SHARE");
+  c->add_option("--difference", a.difference, "Write a picture of the differences")->type_name("FILE");
+  c->add_option("--keep", a.keep, "Write both pictures as STEM-export.png and STEM-tracer.png")->type_name("STEM");
+  a.compile.tolerance = 0.05;
+  add_compile_options(*c, a.compile);
+  c->footer("Examples:\n  orbc verify s.yaml\n  orbc verify s.yaml --blender --difference diff.png");
   add_common(*c, common);
 }
 
@@ -111,12 +141,15 @@ int dispatch(int argc, char** argv) {
   NewArguments new_arguments;
   CheckArguments check_arguments;
   CompileArguments compile_arguments;
-  RenderArguments render_arguments;
+  RenderArguments render_arguments, trace_arguments;
+  VerifyArguments verify_arguments;
   define_info(app, info_arguments, common);
   define_enumerate(app, enumerate_arguments, common);
   define_scene_commands(app, new_arguments, check_arguments, common);
   define_compile(app, compile_arguments, common);
   define_render(app, render_arguments, common);
+  define_trace(app, trace_arguments, common);
+  define_verify(app, verify_arguments, common);
   std::string shell;
   CLI::App* complete = app.add_subcommand("completion", "Print the completion script of a shell");
   complete->add_option("shell", shell, "bash, zsh or fish")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}))->type_name("SHELL");
@@ -135,6 +168,8 @@ int dispatch(int argc, char** argv) {
   if (app.got_subcommand("check")) return check(check_arguments, common);
   if (app.got_subcommand("compile")) return compile(compile_arguments, common);
   if (app.got_subcommand("render")) return render(render_arguments, common);
+  if (app.got_subcommand("trace")) return render(trace_arguments, common);
+  if (app.got_subcommand("verify")) return verify(verify_arguments, common);
   if (app.got_subcommand(complete)) return write_output("-", completion(app, shell)), 0;
   if (app.got_subcommand(manual)) return write_output("-", man_page(app)), 0;
   write_output("-", app.help());
@@ -147,6 +182,9 @@ int run(int argc, char** argv) {
   install_interrupt_handler();
   try {
     return dispatch(argc, argv);
+  } catch (const UsageError& error) {
+    fmt::print(stderr, "orbc: {}\n", error.what());
+    return kUsage;
   } catch (const Cancelled&) {
     fmt::print(stderr, "orbc: stopped; nothing was written\n");
     return kInterrupted;

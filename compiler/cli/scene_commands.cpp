@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include "compiler/cli/commands.h"
+#include "compiler/cli/output.h"
+#include "compiler/cli/support.h"
+#include "compiler/notation/parse.h"
+#include "compiler/notation/print.h"
+#include "compiler/room/realise.h"
+#include "compiler/scene/starter.h"
+
+namespace orbc::cli {
+
+int new_scene(const NewArguments& a, const Common& common) {
+  notation::ParseOptions options;
+  options.span = {std::make_shared<SourceText>(SourceText{"notation", a.notation}), 1, 1, a.notation.size()};
+  const auto parsed = notation::parse_with_notes(a.notation, options);
+  if (!parsed) return print(parsed.error(), common), kSceneWrong;
+  print(parsed->notes, common);
+  const auto room = room::realise(parsed->orbifold);
+  if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
+  write_output("-", scene::starter_scene(notation::to_text(parsed->orbifold), static_cast<int>(room->walls.size()), room->inradius));
+  return kDone;
+}
+
+int check(const CheckArguments& a, const Common& common) {
+  int code = kDone;
+  Diagnostics all;
+  for (const std::string& path : a.scenes) {
+    const auto opened = driver::open_scene(path);
+    const Diagnostics& found = opened ? opened->notes : opened.error();
+    Common plain = common;
+    plain.json = false;
+    if (!common.json) print(found, plain);
+    all.insert(all.end(), found.begin(), found.end());
+    if (!opened) code = kSceneWrong;
+    else if (!common.quiet && !common.json)
+      fmt::print(stderr, "{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path, notation::to_text(opened->scene.orbifold),
+                 opened->room->room.walls.size(), opened->scene.objects.size(), opened->scene.lamps.size());
+  }
+  if (common.json) write_output("-", fmt::format("{{\"ok\": {}, \"diagnostics\": {}}}\n", code == kDone, to_json(all)));
+  return code;
+}
+
+}  // namespace orbc::cli

@@ -1,0 +1,122 @@
+#include "compiler/cli/support.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "compiler/cli/output.h"
+#include "compiler/cli/progress_bar.h"
+
+extern char** environ;
+
+namespace orbc::cli {
+
+std::string to_json(const Diagnostics& diagnostics) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Diagnostic& d : diagnostics) {
+    static constexpr const char* kNames[] = {"note", "warning", "error"};
+    nlohmann::ordered_json entry{{"severity", kNames[static_cast<int>(d.severity)]}, {"code", d.code}, {"message", d.message}};
+    if (!d.hint.empty()) entry["hint"] = d.hint;
+    if (d.span.source) entry["file"] = d.span.source->name;
+    if (d.span.line) entry["line"] = d.span.line, entry["column"] = d.span.column, entry["length"] = d.span.length;
+    list.push_back(std::move(entry));
+  }
+  return list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void print(const Diagnostics& diagnostics, const Common& common) {
+  std::string text;
+  for (const Diagnostic& d : diagnostics)
+    if (d.severity == Severity::error || (d.severity == Severity::warning && !common.quiet) || common.verbose) text += to_text(d);
+  std::fputs(text.c_str(), stderr);
+  if (common.json && has_error(diagnostics)) write_output("-", "{\"diagnostics\": " + to_json(diagnostics) + "}\n");
+}
+
+std::array<int, 2> parse_size(const std::string& text) {
+  std::array<int, 2> size{};
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (int i = 0; i < 2; ++i) {
+    const auto [next, error] = std::from_chars(at, end, size[static_cast<std::size_t>(i)]);
+    const bool separated = i == 0 ? next != end && (*next == 'x' || *next == 'X') : next == end;
+    if (error != std::errc() || !separated || size[static_cast<std::size_t>(i)] < 1 || size[static_cast<std::size_t>(i)] > 32768)
+      throw UsageError("--size wants WIDTHxHEIGHT in pixels, each 1 to 32768, such as 800x600; got " + text);
+    at = next + 1;
+  }
+  if (static_cast<std::int64_t>(size[0]) * size[1] > std::int64_t{1} << 28) throw UsageError("--size " + text + " is more than 2^28 pixels");
+  return size;
+}
+
+std::uint64_t parse_bytes(const std::string& text) {
+  static const std::array<std::pair<const char*, double>, 7> kUnits{{{"", 1}, {"KiB", 1024.0}, {"MiB", 1048576.0}, {"GiB", 1073741824.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}}};
+  double value = 0;
+  const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string unit(next, text.data() + text.size());
+  for (const auto& [name, factor] : kUnits)
+    if (error == std::errc() && unit == name && value > 0 && value * factor < 1e18) return static_cast<std::uint64_t>(value * factor);
+  throw UsageError("--max-memory wants a size such as 512MiB or 4GiB; got " + text);
+}
+
+driver::Overrides overrides_of(const SceneArguments& arguments) {
+  driver::Overrides overrides;
+  if (!arguments.size.empty()) overrides.size = parse_size(arguments.size);
+  overrides.max_bounces = arguments.max_bounces;
+  if (arguments.projection == "perspective") overrides.projection = scene::Projection::perspective;
+  if (arguments.projection == "panorama") overrides.projection = scene::Projection::panorama;
+  if (arguments.projection == "cylinder") overrides.projection = scene::Projection::cylinder;
+  return overrides;
+}
+
+std::string shipped_script(const std::string& name) {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const std::filesystem::path folders[] = {program.parent_path().parent_path() / "share/orbc", program.parent_path().parent_path().parent_path() / "scripts",
+                                           std::filesystem::path(ORBC_SOURCE_DIR) / "scripts"};
+  for (const std::filesystem::path& folder : folders)
+    if (std::filesystem::exists(folder / name, ignored)) return (folder / name).string();
+  throw std::runtime_error("cannot find " + name + ", which belongs to orbc; was it moved without its share/orbc folder?");
+}
+
+int run_program(const std::vector<std::string>& arguments, bool quiet) {
+  std::vector<char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  if (quiet) posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes;  // our SIGPIPE is ignored; programs we start expect the default
+  posix_spawnattr_init(&attributes);
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  if (failed) return 127;
+  int status = 0;
+  bool told = false;
+  for (;;) {
+    const pid_t done = ::waitpid(child, &status, WNOHANG);
+    if (done == child) break;
+    if (done < 0 && errno != EINTR) return 127;
+    if (interrupted() && !told) ::kill(child, SIGTERM), told = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (told) throw Cancelled();
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace orbc::cli

@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "compiler/base/diagnostic.h"
+#include "compiler/cli/commands.h"
+#include "compiler/driver/open.h"
+
+namespace orbc::cli {
+
+inline constexpr int kDone = 0, kSceneWrong = 1, kUsage = 2, kMachine = 3;
+
+/// A mistake on the command line that CLI11 cannot see; main prints it and exits with 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Prints errors (and, unless quiet, warnings; with verbose, notes) to standard error; with --json errors also go to standard output as JSON.
+void print(const Diagnostics& diagnostics, const Common& common);
+[[nodiscard]] std::string to_json(const Diagnostics& diagnostics);
+
+/// "800x600". Throws UsageError.
+[[nodiscard]] std::array<int, 2> parse_size(const std::string& text);
+/// "512MiB", "4GiB", "1e9", plain bytes. Throws UsageError.
+[[nodiscard]] std::uint64_t parse_bytes(const std::string& text);
+[[nodiscard]] driver::Overrides overrides_of(const SceneArguments& arguments);
+
+/// A script that ships with orbc (povray-pipe, render_blender.py): beside the sources, or in share/orbc of the installation.
+[[nodiscard]] std::string shipped_script(const std::string& name);
+/// Runs a program and waits; its output goes to ours. Returns its exit code, 127 when it cannot be started. Ctrl-C ends it too.
+int run_program(const std::vector<std::string>& arguments, bool quiet);
+
+}  // namespace orbc::cli

@@ -1,0 +1,95 @@
+#include "compiler/driver/compile.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "compiler/cover/plan.h"
+#include "compiler/cover/unfold.h"
+#include "compiler/geometry/chart.h"
+#include "compiler/light/atlas.h"
+#include "compiler/notation/print.h"
+
+namespace orbc::driver {
+namespace {
+
+// The room's centre is the origin of its coordinates.
+double distance_to(const cover::Copy& copy, const place::Eye& eye) {
+  const geometry::Space space = eye.room_from_eye.space;
+  return geometry::distance(space, copy.cover_from_room * geometry::Point(), eye.room_from_eye * geometry::Point());
+}
+
+std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::vector<bend::BentRange>& ranges, const place::Eye& eye) {
+  std::vector<DrawnCopy> result;
+  result.reserve(copies.size());
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    const cover::Copy& c = copies[i];
+    const bend::BentRange& r = ranges[i];
+    result.push_back({r.first_vertex, r.vertex_count, r.first_index, r.index_count, c.weight, c.word, c.bounces, c.sheet, c.cover_from_room.reversing, distance_to(c, eye)});
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+  report(progress, "unfolding", 0, 0);
+  if (const auto planned = plan(opened, options); !planned) return planned.error();
+  const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover, {.progress = progress});
+  if (!copies) return located(copies.error(), opened.scene.span);
+  report(progress, "atlas", 0, 0);
+  auto atlas = light::make_atlas(*opened.room);
+  if (!atlas) return located(atlas.error(), opened.scene.span);
+  auto bent = bend::bend(atlas->room, atlas->uv, *copies, opened.eye, options.bend, executor, progress);
+  if (!bent) return located(bent.error(), opened.scene.span);
+
+  Compiled compiled;
+  Product& product = compiled.product;
+  product.title = notation::to_text(opened.scene.orbifold);
+  product.eye = opened.eye;
+  product.background = opened.scene.cover.background;
+  product.atlas = std::move(atlas->image);
+  product.copies = drawn(*copies, bent->copies, opened.eye);
+  product.positions = std::move(bent->positions);
+  product.uv = std::move(bent->uv);
+  product.indices = std::move(bent->indices);
+  product.flat_view = options.bend.view == bend::View::disk;
+  if (product.flat_view) product.eye.room_from_eye = geometry::identity(opened.eye.room_from_eye.space);
+
+  Report& r = compiled.report;
+  r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
+  r.error_bound_px = bent->error_bound_px;
+  for (const DrawnCopy& copy : product.copies) r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
+  return compiled;
+}
+
+Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options) {
+  auto planned = cover::plan(*opened.room, opened.eye, opened.scene.cover, {options.max_memory});
+  if (!planned) return located(planned.error(), opened.scene.span);
+  return planned;
+}
+
+std::string plan_json(const cover::Plan& p) {
+  std::string per_bounces;
+  for (const Integer& n : p.copies_per_bounces) per_bounces += (per_bounces.empty() ? "" : ", ") + to_string(n);
+  return "{\n  \"copies\": " + to_string(p.copies) + ",\n  \"copies_per_bounces\": [" + per_bounces + "],\n  \"sheets\": " + std::to_string(p.sheets) +
+         ",\n  \"triangles\": " + std::to_string(p.triangles) + ",\n  \"vertices\": " + std::to_string(p.vertices) + ",\n  \"bytes\": " + std::to_string(p.bytes) + "\n}\n";
+}
+
+Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring colouring) {
+  auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover);
+  if (!copies) return located(copies.error(), opened.scene.span);
+  std::vector<cover::Copy> first_sheet;
+  for (cover::Copy& copy : *copies)
+    if (copy.sheet == 0) first_sheet.push_back(std::move(copy));
+  return Tiling{notation::to_text(opened.scene.orbifold), opened.room->room, std::move(first_sheet), model, colouring};
+}
+
+std::string report_json(const Compiled& compiled) {
+  const Report& r = compiled.report;
+  nlohmann::ordered_json json{{"orbifold", compiled.product.title}, {"copies", r.copies}, {"vertices", r.vertices}, {"triangles", r.triangles},
+                              {"longest_word", r.longest_word}, {"error_bound_px", r.error_bound_px},
+                              {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace orbc::driver

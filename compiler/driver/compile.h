@@ -1,0 +1,43 @@
+#pragma once
+#include "compiler/base/executor.h"
+#include "compiler/base/progress.h"
+#include "compiler/bend/bend.h"
+#include "compiler/cover/plan.h"
+#include "compiler/driver/open.h"
+#include "compiler/driver/product.h"
+
+namespace orbc::driver {
+
+struct CompileOptions {
+  bend::BendOptions bend;
+  std::uint64_t max_memory = std::uint64_t{4} << 30;
+};
+
+/// What was made, in numbers; for report.json and the summary.
+struct Report {
+  std::uint64_t copies = 0, vertices = 0, triangles = 0;
+  double error_bound_px = 0;
+  int longest_word = 0;
+};
+
+struct Compiled {
+  Product product;
+  Report report;
+};
+
+/// unfold → plan → atlas → bend: the upper road of compiler/README.md.
+/// Makes:       the same product for any executor.
+/// Diagnostics: those of cover, light and bend.
+[[nodiscard]] Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress = {});
+
+/// What compiling would make, and whether it fits into the memory allowed.
+[[nodiscard]] Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options);
+[[nodiscard]] std::string plan_json(const cover::Plan& plan);
+
+/// The flat picture of the tiling, without eye or meshes.
+[[nodiscard]] Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring colouring);
+
+/// The report as JSON text.
+[[nodiscard]] std::string report_json(const Compiled& compiled);
+
+}  // namespace orbc::driver

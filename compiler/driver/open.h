@@ -1,0 +1,33 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "compiler/base/result.h"
+#include "compiler/place/eye.h"
+#include "compiler/place/placed.h"
+#include "compiler/scene/scene.h"
+
+namespace orbc::driver {
+
+/// What the command line may say instead of the scene.
+struct Overrides {
+  std::optional<std::array<int, 2>> size;
+  std::optional<int> max_bounces;
+  std::optional<scene::Projection> projection;
+};
+
+/// A scene that has been read, realised, furnished and looked at: where both roads begin.
+struct Opened {
+  scene::Scene scene;
+  std::unique_ptr<place::PlacedRoom> room;  ///< keeps its place in memory: the tracer refers to it
+  place::Eye eye;
+  Diagnostics notes;
+};
+
+/// read → realise → furnish → eye. In: a path, or "-" for standard input.
+/// Diagnostics: those of the rooms it goes through, placed in the file.
+[[nodiscard]] Result<Opened> open_scene(const std::string& path, const Overrides& overrides = {});
+
+}  // namespace orbc::driver
