@@ -1,0 +1,49 @@
+#pragma once
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "compiler/driver/product.h"
+
+namespace orbc::svg {
+
+/// How chart coordinates lie on the page: x to the right, y down, `scale` units per chart length.
+struct Page {
+  geometry::Space space = geometry::Space::euclidean;
+  bool straight = false;              ///< gnomonic chart instead of the conformal one
+  double width = 0, height = 0;
+  std::complex<double> middle;        ///< page position of the chart's origin
+  double scale = 1;
+  double frame = 0;                   ///< chart radius of the round frame; 0 = no frame
+};
+
+/// One piece of a wall between neighbouring points of the room's outline; shorter than π on S².
+struct Piece {
+  geometry::Point from, middle, to;
+  geometry::Line line;                ///< the wall, inside to the left
+};
+
+[[nodiscard]] std::vector<Piece> outline_pieces(const room::Room& room);
+
+/// Fits the tiling on a page `width` wide. `pieces` are those of its room.
+[[nodiscard]] Page make_page(const driver::Tiling& tiling, const std::vector<Piece>& pieces, double width);
+
+/// In H² the chart's rim is never reached, on S² points near the antipode of the origin stay finite.
+[[nodiscard]] std::complex<double> on_page(const Page& page, const geometry::Point& p);
+
+/// A copy as an SVG path, closed.
+struct TilePath {
+  std::string d;                      ///< "" when nothing of it is on the page
+  double diameter = 0;                ///< of its box on the page
+};
+
+/// In:      the pieces of the room and where the copy lies.
+/// Formula: in the conformal chart the line (w, l) is the circle about l/(κw) with radius 1/|w|.
+/// Makes:   arcs (`A`) where they bulge by more than 1/50 unit, else straight lines. The copy of S² that holds the antipode of the origin becomes
+///          the frame minus its outline (fill rule evenodd).
+[[nodiscard]] TilePath tile_path(const Page& page, const std::vector<Piece>& pieces, const geometry::Isometry& cover_from_room);
+
+/// A page coordinate: three digits after the point, no trailing zeros.
+[[nodiscard]] std::string coordinate(double value);
+
+}  // namespace orbc::svg
