@@ -54,6 +54,19 @@ std::map<int, double> read_lengths(Reader& reader, const Node& node, const RoomF
   return lengths;
 }
 
+// What means nothing in this room is a warning and left out of the scene: so one furnishing can be tried in many rooms.
+void drop_unused(const Fields& room, const RoomFacts& facts, Shape& shape) {
+  const Shape standard;
+  if (!facts.flat) room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius"), shape.scale = standard.scale;
+  if (!facts.rectangle) room.no_effect("aspect", "only `*2222` may be stretched"), shape.aspect = standard.aspect;
+  if (!facts.strip) room.no_effect("length", "it belongs to the strip `**`"), shape.strip_length = standard.strip_length;
+  if (shape.kind != ShapeKind::paper) {
+    for (const char* key : {"cut", "cuts"}) room.no_effect(key, "it belongs to `shape: paper`");
+    shape.cuts.clear();
+  }
+  if (shape.kind != ShapeKind::lengths) room.no_effect("lengths", "it belongs to `shape: lengths`"), shape.lengths.clear();
+}
+
 Shape read_shape(const Fields& room, const RoomFacts& facts) {
   Shape shape;
   shape.span = room.has("shape") ? room.find("shape")->span : room.node().span;
@@ -64,13 +77,8 @@ Shape read_shape(const Fields& room, const RoomFacts& facts) {
   shape.scale = room.number("scale", shape.scale, kLength);
   shape.aspect = room.number("aspect", shape.aspect, {0.001, 1000});
   shape.strip_length = room.number("length", shape.strip_length, kLength);
-  if (shape.kind != ShapeKind::paper)
-    for (const char* key : {"cut", "cuts"}) room.no_effect(key, "it belongs to `shape: paper`");
-  if (facts.walls > 0 && !facts.flat) room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius");
-  if (facts.walls > 0 && !facts.rectangle) room.no_effect("aspect", "only `*2222` may be stretched");
-  if (facts.walls > 0 && !facts.strip) room.no_effect("length", "it belongs to the strip `**`");
-  if (shape.kind != ShapeKind::lengths) room.no_effect("lengths", "it belongs to `shape: lengths`");
-  else room.require("lengths", "give the side lengths of all walls but three: lengths: {1: 0.8, 2: 1.1}");
+  if (facts.walls > 0) drop_unused(room, facts, shape);
+  if (shape.kind == ShapeKind::lengths) room.require("lengths", "give the side lengths of all walls but three: lengths: {1: 0.8, 2: 1.1}");
   return shape;
 }
 

@@ -241,6 +241,15 @@ TEST_CASE("shapes, cameras and covers are read", "[scene]") {
   CHECK(heads.orbifold.corners[0] == Rational(3, 2));
 }
 
+TEST_CASE("what means nothing in a room is warned of and left out", "[scene]") {
+  const Shape shape = good("warnings").scene.room.shape;
+  CHECK(shape.scale == 1);
+  CHECK(shape.aspect == 1);
+  CHECK(shape.strip_length == Shape{}.strip_length);
+  CHECK(shape.cuts.empty());
+  CHECK(shape.lengths.empty());
+}
+
 TEST_CASE("numbers and texts follow YAML 1.2, not 1.1", "[scene]") {
   const Scene scene = good("numbers").scene;
   CHECK(scene.room.height == 1.5);
