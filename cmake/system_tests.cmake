@@ -1,6 +1,6 @@
 # Tests that run real programs: povray, blender, node. One line each; labels render and slow.
 add_executable(sample_products ${CMAKE_SOURCE_DIR}/tests/system/sample_products.cpp)
-target_link_libraries(sample_products PRIVATE orbc::pov orbc::gltf)
+target_link_libraries(sample_products PRIVATE orbc::pov orbc::gltf orbc::svg)
 
 # orbc_system_test(name script timeout labels…): runs tests/system/<script> with the folder of the built programs; exit code 77 = a program is missing.
 function(orbc_system_test name script timeout)
@@ -12,4 +12,5 @@ orbc_system_test(system_pov_colours pov_colours.py 120 render)
 orbc_system_test(system_cameras_povray cameras_povray.py 120 render)
 orbc_system_test(system_povray_pipe povray_pipe.py 180 render)
 orbc_system_test(system_gltf_valid gltf_valid.py 120 fast)
+orbc_system_test(system_svg_pictures svg_pictures.py 120 fast)
 orbc_system_test(system_blender blender.py 300 render slow)

@@ -1,6 +1,6 @@
 // Writes products made by hand for the tests that draw them with real renderers: sample_products SAMPLE FORMAT FOLDER
-//   SAMPLE  squares | codes | balls-PROJECTION | flat | empty | hollow | many | huge
-//   FORMAT  pov | pipe | glb | gltf | nodes
+//   SAMPLE  squares | codes | balls-PROJECTION | flat | empty | hollow | many | huge | one-texel, or a notation such as *237 for the format svg
+//   FORMAT  pov | pipe | glb | gltf | nodes | svg | klein
 // leaves FOLDER/SAMPLE.EXT and what belongs to it, and prints what is known of the sample as JSON.
 #include <fmt/core.h>
 
@@ -9,10 +9,16 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "compiler/cover/enumerate.h"
+#include "compiler/notation/parse.h"
+#include "compiler/room/realise.h"
 #include "compiler/scene/color.h"
 #include "exporters/gltf/write_gltf.h"
 #include "exporters/pov/write_pov.h"
 #include "exporters/standpoint.h"
+#include "exporters/svg/page.h"
+#include "exporters/svg/palette.h"
+#include "exporters/svg/write_svg.h"
 #include "tests/support/products.h"
 
 using namespace orbc;
@@ -156,6 +162,40 @@ driver::Product make(const std::string& sample, std::vector<Ball>& balls) {
   return product;
 }
 
+/// A tiling drawn as SVG; prints where the centre of each large copy must be on the page, and in which colour.
+void write_tiling(const std::string& notation, bool klein, const std::string& folder) {
+  driver::Tiling tiling;
+  tiling.title = notation;
+  tiling.model = klein ? driver::Tiling::Model::klein : driver::Tiling::Model::disk;
+  tiling.room = room::realise(*notation::parse(notation)).value();
+  std::vector<geometry::Isometry> reflections;
+  for (std::size_t i = 0; i < tiling.room.walls.size(); ++i)
+    if (tiling.room.walls[i].reflects) reflections.push_back(room::reflection_in_wall(tiling.room, static_cast<int>(i)));
+  const int depth = 12;
+  cover::enumerate(cover::Automaton(tiling.room.orbifold, depth), reflections, depth, [&](const cover::Element& element, const geometry::Isometry& map) {
+    cover::Copy copy;
+    copy.cover_from_room = map;
+    copy.word.assign(element.word.begin(), element.word.end());
+    tiling.copies.push_back(copy);
+    return (map * geometry::Point()).w > 40 ? cover::Walk::back : cover::Walk::deeper;  // near the rim of the disk
+  });
+  write(folder + "/tiling.svg", svg::write_svg(tiling)[0].bytes);
+  const std::vector<svg::Piece> pieces = svg::outline_pieces(tiling.room);
+  const svg::Page page = svg::make_page(tiling, pieces, svg::SvgOptions().width);
+  fmt::print("{{\"centres\":[");
+  bool first = true;
+  int longest = 1;
+  for (const cover::Copy& copy : tiling.copies) {
+    const geometry::Point center = copy.cover_from_room * geometry::Point();
+    if (tiling.room.space == geometry::Space::spherical && (center.w < (klein ? 0.5 : -0.9) || std::abs(center.w) < 0.02)) continue;  // unseen, or on the dotted equator
+    const std::complex<double> at = svg::on_page(page, center);
+    if (svg::tile_path(page, pieces, copy.cover_from_room).diameter < 60 || std::abs(at - page.middle) > 0.97 * page.width / 2) continue;
+    fmt::print("{}[{},{},\"{}\"]", first ? "" : ",", at.real(), at.imag(), svg::fill_of(copy, longest, tiling.colouring));
+    first = false;
+  }
+  fmt::print("]}}\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -164,6 +204,10 @@ int main(int argc, char** argv) try {
     return 2;
   }
   const std::string sample = argv[1], format = argv[2], folder = argv[3];
+  if (format == "svg" || format == "klein") {
+    write_tiling(sample, format == "klein", folder);
+    return 0;
+  }
   std::vector<Ball> balls;
   const driver::Product product = make(sample, balls);
   std::vector<driver::File> files;
