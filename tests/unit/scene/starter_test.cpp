@@ -26,6 +26,25 @@ TEST_CASE("the starter scene of every kind of room is read without a word", "[sc
   }
 }
 
+TEST_CASE("what a starter scene offers in comments is right as well", "[scene]") {
+  for (const auto& [notation, walls, inradius] : {std::tuple{"*22222", 5, 0.5}, {"*", 1, 1.5}, {"**", 4, 1.0}, {"*235", 3, 0.19}}) {
+    const std::string text = starter_scene(notation, walls, inradius);
+    int offers = 0;
+    for (const char* offer : {"# 1: {mirror: none", "# 1: {mirrors"}) {
+      std::string taken = text;
+      const std::size_t at = taken.find(offer);
+      REQUIRE(at != std::string::npos);
+      taken.erase(at, 2);
+      const auto read = read_scene(SourceText{"new.yaml", taken});
+      INFO(taken);
+      if (!read) FAIL(to_text(read.error()));
+      CHECK(to_text(read->notes).empty());
+      ++offers;
+    }
+    CHECK(offers == 2);
+  }
+}
+
 TEST_CASE("a starter scene quotes whatever its notation is", "[scene]") {
   const auto read = read_scene(SourceText{"new.yaml", starter_scene("*22\"\n: {\\", 2, 1)});
   REQUIRE_FALSE(read);
