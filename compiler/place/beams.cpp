@@ -25,6 +25,7 @@ struct Strip {
   Point start;
   geometry::Tangent along;
   Line line;
+  double period = 0;             ///< of a whole great circle: its length; 0 = open
   [[nodiscard]] Point at(double s, double d) const {
     const Ambient normal{geometry::curvature(space) * line.w, line.x, line.y};
     return geometry::normalised_point(space, geometry::cos_k(space, d) * geometry::point_along(space, start, along, s) + geometry::sin_k(space, d) * normal);
@@ -45,7 +46,8 @@ class Quads {
   Net net;
 
  private:
-  std::uint32_t vertex(const Place& p) {
+  std::uint32_t vertex(Place p) {
+    if (strip_.period > 0 && p[0] == strip_.period) p[0] = 0;
     const auto [at, is_new] = known_.try_emplace(p, static_cast<std::uint32_t>(net.vertices.size()));
     if (is_new) net.vertices.push_back({strip_.at(p[0], p[1]), p[2]});
     return at->second;
@@ -99,9 +101,9 @@ bool meets(const room::Room& room, const std::vector<FrameSpec>& frames, const F
 // Front, and the inner and outer flanks, of one frame, as large as it would be without the room around it.
 Net bare_frame(const room::Room& room, double height, const FrameSpec& f) {
   const room::Wall& wall = room.walls[f.wall];
-  const Strip strip{room.space, wall.start, wall.along, wall.line};
   const double half = f.width / 2;
   const bool closed = room.corners.empty() && f.span[0] <= 0 && f.span[1] >= wall.length;   // a whole great circle has no ends
+  const Strip strip{room.space, wall.start, wall.along, wall.line, closed ? wall.length : 0};
   const bool plate = (!closed && f.span[1] - f.span[0] <= f.width) || f.height[1] - f.height[0] <= f.width;
   double s0 = f.span[0] - half, s1 = f.span[0] + half, s2 = f.span[1] - half, s3 = f.span[1] + half;
   if (closed) s0 = s1 = 0, s2 = s3 = wall.length;
@@ -168,7 +170,7 @@ Result<PlacedMesh> make_beam(const room::Room& room, double height, const Positi
   const Space space = room.space;
   const double run = geometry::distance(space, from.floor, to.floor), rise = to.z - from.z, length = std::hypot(run, rise), half = width / 2;
   if (!(length > 1e-12)) return make_error("place.no-beam", "this beam begins where it ends", "give it two different positions");
-  Strip strip{space, from.floor, {}, {}};
+  Strip strip{space, from.floor, {}, {}, 0};
   // An upright beam has no direction of its own; it stands along the room's x axis.
   const geometry::Isometry room_from_foot = geometry::translation_to(space, from.floor);
   strip.along = run > 1e-12 ? geometry::direction_to(space, from.floor, to.floor) : room_from_foot * geometry::Tangent{0, 1, 0};
@@ -188,6 +190,9 @@ Result<PlacedMesh> make_beam(const room::Room& room, double height, const Positi
   for (const room::Wall& wall : room.walls) clip(space, net, wall.line, side++);
   net.pieces = cut_at_height(space, net, net.pieces, 0, side++).left;
   net.pieces = cut_at_height(space, net, net.pieces, height, side++).right;
+  // An end that stands on the floor is not seen.
+  const auto on_floor = [&](const Net::Piece& piece) { return std::all_of(piece.loop.begin(), piece.loop.end(), [&](const Net::Edge& e) { return net.vertices[e.vertex].z < 1e-12; }); };
+  net.pieces.erase(std::remove_if(net.pieces.begin(), net.pieces.end(), on_floor), net.pieces.end());
   PlacedMesh mesh = to_mesh(space, std::move(net));
   mesh.kind = PartKind::object;
   return mesh;

@@ -36,6 +36,12 @@ bool in_chart(Space space, scene::Embedding embedding, const Vector3& p) {
   return space != Space::hyperbolic || r < 2 * (1 - 1e-9);
 }
 
+// The intrinsic length of the interval [low, high] of the axis.
+double embedded_length(Space space, scene::Embedding embedding, double low, double high) {
+  if (embedding == scene::Embedding::exponential || space == Space::euclidean) return high - low;
+  return 2 * (geometry::atan_k(space, high / 2) - geometry::atan_k(space, low / 2));
+}
+
 Vector3 standing(const Vector3& p, char up) { return up == 'y' ? Vector3{p.x, -p.z, p.y} : p; }
 
 // ---- refining ---------------------------------------------------------------------------------------------------------------
@@ -44,8 +50,13 @@ bool is_too_long(Space space, scene::Embedding embedding, const Vector3& p, cons
   const double reach2 = std::fmax(p.x * p.x + p.y * p.y, q.x * q.x + q.y * q.y), dx = p.x - q.x, dy = p.y - q.y;
   // Near the axis the error is below |z|·l²/8 with |z| ≤ reach/2 in the disk; eight times that settles nearly all edges of a fine mesh.
   if (reach2 < 0.25 && 0.25 * reach2 * (dx * dx + dy * dy) * (dx * dx + dy * dy) <= tolerance * tolerance) return false;
-  const Point middle = geometry::midpoint(space, embedded(space, embedding, p), embedded(space, embedding, q));
-  return geometry::distance(space, middle, embedded(space, embedding, 0.5 * (p + q))) > tolerance;
+  const Point from = embedded(space, embedding, p), to = embedded(space, embedding, q);
+  // Not the middle alone: an edge through the axis has no error there, and an edge that is never split while its neighbours are breeds slivers without end.
+  for (const double t : {0.25, 0.5, 0.75}) {
+    const Point chord = geometry::normalised_point(space, (1 - t) * from + t * to);
+    if (geometry::distance(space, chord, embedded(space, embedding, (1 - t) * p + t * q)) > tolerance) return true;
+  }
+  return false;
 }
 
 // ---- containment ------------------------------------------------------------------------------------------------------------
@@ -88,12 +99,21 @@ std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, co
     for (int i = 0; i < 20; ++i) (fits(place, level, 0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
     return low;
   };
-  double extent = 0;
-  for (const Vector3& p : flat.positions) extent = std::fmax(extent, 2 * std::fmax(std::fabs(p.x), std::fabs(p.y)));
-  const double size = object.size.value_or(extent), here = largest(at, z);
-  if (here > 0.2) return fmt::format("`size: {:.3g}` fits here", std::floor(1000 * here * size * 0.998) / 1000);
+  double low[2] = {0, 0}, high[2] = {0, 0};
+  for (const Vector3& p : flat.positions) {
+    low[0] = std::fmin(low[0], p.x), high[0] = std::fmax(high[0], p.x);
+    low[1] = std::fmin(low[1], p.y), high[1] = std::fmax(high[1], p.y);
+  }
+  const int axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
+  // A little less than what fits, in three digits.
+  const auto size = [&](double factor) {
+    const double true_size = embedded_length(room.space, object.embedding, factor * low[axis], factor * high[axis]), digits = std::pow(10, 2 - std::floor(std::log10(true_size)));
+    return std::floor(0.998 * true_size * digits) / digits;
+  };
+  const double here = largest(at, z);
+  if (here > 0.2) return fmt::format("`size: {:.3g}` fits here", size(here));
   if (fits({}, 0, 1)) return "it fits at the centre of the room";
-  return fmt::format("`size: {:.3g}` fits at the centre of the room", std::floor(1000 * largest({}, 0) * size * 0.998) / 1000);
+  return fmt::format("`size: {:.3g}` fits at the centre of the room", size(largest({}, 0)));
 }
 
 std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at,

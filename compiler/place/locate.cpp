@@ -111,13 +111,16 @@ Result<Point> between_walls(const room::Room& room, const scene::AtWalls& at, co
   }
   const std::vector<Point> points = at_distances(room.space, room.walls[i].line, room.walls[j].line, at.distances[0], at.distances[1]);
   if (points.empty()) return none("walls that do not meet leave room only for some pairs of distances");
-  const Point* best = nullptr;
-  for (const Point& p : points) {
-    const bool inside = overhang(room, p).distance <= 1e-12;
-    const bool best_inside = best && overhang(room, *best).distance <= 1e-12;
-    if (!best || (inside && !best_inside) || (inside == best_inside && p.w * geometry::curvature(room.space) > best->w * geometry::curvature(room.space) + 1e-12))
-      best = &p;
-  }
+  // Of two such points in the room the one nearer to the centre is meant, of two equally near ones the one on the side of corner 1.
+  const auto better = [&](const Point& p, const Point& q) {
+    const bool p_inside = overhang(room, p).distance <= 1e-12, q_inside = overhang(room, q).distance <= 1e-12;
+    if (p_inside != q_inside) return p_inside;
+    const double farther = geometry::distance(room.space, Point{}, p) - geometry::distance(room.space, Point{}, q);
+    return std::fabs(farther) > 1e-9 ? farther < 0 : p.x > q.x;
+  };
+  const Point* best = &points.front();
+  for (const Point& p : points)
+    if (better(p, *best)) best = &p;
   return *best;
 }
 

@@ -67,7 +67,8 @@ Result<Net> level_net(const room::Room& room, const scene::Material& material, c
   const double bound = options.texel_error / options.texture_size;
   for (double step = 0.25;; step /= 2) {
     Result<Net> net = floor_net(room, step, options.max_cells);
-    if (!net || uv_error(room.space, *net, material.cell) <= bound || net->pieces.size() > options.max_cells / 8) return net;
+    // Finer than this is not worth the triangles.
+    if (!net || uv_error(room.space, *net, material.cell) <= bound || net->pieces.size() > 20'000) return net;
   }
 }
 
