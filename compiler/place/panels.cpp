@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "compiler/geometry/chart.h"
@@ -61,12 +62,24 @@ double uv_error(Space space, const Net& net, double cell) {
   return worst;
 }
 
+// The lines of both axial families meet on the border w = 0 of a half sphere, which they therefore do not divide; lines through the centre do.
+void cut_by_spokes(Net& net, double step) {
+  const int count = static_cast<int>(std::ceil(std::numbers::pi / step));
+  for (int i = 0; i < count; ++i) {
+    const double angle = std::numbers::pi * (i + 0.5) / count;
+    Halves halves = cut(Space::spherical, net, net.pieces, {0, -std::sin(angle), std::cos(angle)}, -1'000'000 - i);
+    net.pieces = std::move(halves.left);
+    net.pieces.insert(net.pieces.end(), halves.right.begin(), halves.right.end());
+  }
+}
+
 Result<Net> level_net(const room::Room& room, const scene::Material& material, const PanelOptions& options) {
   if (material.pattern == scene::Pattern::checker) return floor_net(room, material.cell, options.max_cells);
   if (material.pattern != scene::Pattern::texture || room.space == Space::euclidean) return floor_net(room, 0, options.max_cells);
   const double bound = options.texel_error / options.texture_size;
   for (double step = 0.25;; step /= 2) {
     Result<Net> net = floor_net(room, step, options.max_cells);
+    if (net && room.space == Space::spherical && room.circumradius > 1.5) cut_by_spokes(*net, step);
     // Finer than this is not worth the triangles.
     if (!net || uv_error(room.space, *net, material.cell) <= bound || net->pieces.size() > 20'000) return net;
   }
