@@ -165,7 +165,7 @@ std::optional<Polygon> tangential_polygon(Space space, const std::vector<CornerA
     cos_radius.push_back(k == 0 ? Real(1) : Real(root / a.sin_half));  // cosκ R = cot θ cot β
   }
   Polygon polygon{space, {}, {}, k == 0 ? Real(scale) : k > 0 ? asin(sin_r) : asinh(sin_r)};
-  Direction direction(1, 0);
+  Direction direction{1, 0};
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const Real rho = sin_r / angles[i].sin_half;
     polygon.corners.push_back({cos_radius[i], rho * direction.x, rho * direction.y});
