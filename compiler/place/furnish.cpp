@@ -12,6 +12,7 @@
 #include "compiler/mesh/primitives.h"
 #include "compiler/place/beams.h"
 #include "compiler/place/locate.h"
+#include "compiler/place/seams.h"
 #include "compiler/place/wrap.h"
 
 namespace orbc::place {
@@ -105,6 +106,9 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
     const std::vector<std::uint16_t> looks = builder.looks_of(material);
     builder.add_part(std::move(panel), looks, material.span);
   }
+  const auto& parts = builder.placed.parts;
+  if (std::any_of(parts.begin(), parts.end(), [](const PlacedMesh& part) { return !part.uv.empty(); }))
+    builder.placed.parts = sewn(builder.room, spec.height, std::move(builder.placed.parts));
 }
 
 void build_frames(Builder& builder, const ClippedMirrors& mirrors) {
