@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "compiler/trace/bvh.h"
 #include "compiler/trace/chart_ray.h"
+#include "compiler/trace/meet.h"
 #include "compiler/trace/walk.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,10 +30,16 @@ template <int kTerms>
 HWY_INLINE V odd_polynomial(const Chart& chart, V a, V shift) {
   const D d;
   if constexpr (kTerms == 1) return hn::Add(a, shift);
-  const V y = hn::Mul(a, a);
-  V p = hn::Set(d, chart.poly[kTerms - 1]);
-  for (int k = kTerms - 2; k >= 0; --k) p = hn::MulAdd(p, y, hn::Set(d, chart.poly[k]));
-  return hn::MulAdd(a, p, shift);
+  const auto c = [&](int k) { return hn::Set(d, chart.poly[k]); };
+  const V y = hn::Mul(a, a);  // Estrin's order: the chain of dependent steps is what a node waits for
+  if constexpr (kTerms == 2) return hn::MulAdd(a, hn::MulAdd(y, c(1), c(0)), shift);
+  const V yy = hn::Mul(y, y), low = hn::MulAdd(y, c(1), c(0));
+  if constexpr (kTerms == 3) return hn::MulAdd(a, hn::MulAdd(yy, c(2), low), shift);
+  const V high = hn::MulAdd(y, c(3), c(2));
+  if constexpr (kTerms == 4) return hn::MulAdd(a, hn::MulAdd(yy, high, low), shift);
+  if constexpr (kTerms == 5) return hn::MulAdd(a, hn::MulAdd(yy, hn::MulAdd(yy, c(4), high), low), shift);
+  const V top = hn::MulAdd(yy, c(6), hn::MulAdd(y, c(5), c(4)));
+  return hn::MulAdd(a, hn::MulAdd(yy, hn::MulAdd(yy, top, high), low), shift);
 }
 
 /// Which of a node's boxes the ray may touch between `start` and `end`, and where it enters them.
@@ -74,13 +82,20 @@ HWY_INLINE Corner pick(M first, const Corner& a, const Corner& b) {
           hn::IfThenElse(first, a.by_w, b.by_w)};
 }
 
+/// 1/x to about 2 ulp: a division would be waited for.
+HWY_INLINE V by(V x) {
+  const D d;
+  const V r = hn::ApproximateReciprocal(x);
+  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
+}
+
 /// The Padé approximant [5/4] of tanκ, as in chart.h.
 HWY_INLINE V pade(V kappa, V a) {
   const D d;
   const V y = hn::Mul(a, a);
   const V over = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -105.0f), kappa, y), hn::Set(d, 945.0f));
   const V under = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -420.0f), kappa, hn::Mul(hn::Set(d, 15.0f), y)), hn::Set(d, 945.0f));
-  return hn::Div(hn::Mul(a, over), under);
+  return hn::Mul(hn::Mul(a, over), by(under));
 }
 
 struct LeafConstants {
@@ -91,33 +106,49 @@ template <Space kSpace>
 HWY_INLINE Cut cut_edge(const ChartRay& ray, const LeafConstants& leaf, const Corner& i, const Corner& j) {
   const D d;
   const V hi = hn::Abs(i.h), hj = hn::Abs(j.h);
-  const V by_sum = hn::Div(hn::Set(d, 1.0f), hn::Add(hi, hj));
-  const V wi = hn::Mul(hj, by_sum), wj = hn::Mul(hi, by_sum);
+  const V by_sum = by(hn::Add(hi, hj));
   const V weight_error = hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum);
   Cut cut;
-  cut.t = hn::MulAdd(wi, i.t, hn::Mul(wj, j.t));
+  cut.t = hn::Mul(by_sum, hn::MulAdd(hj, i.t, hn::Mul(hi, j.t)));
   cut.t_error = hn::MulAdd(weight_error, hn::Abs(hn::Sub(i.t, j.t)), hn::Set(d, ray.t_error));
-  V z = hn::MulAdd(wi, i.z_by_w, hn::Mul(wj, j.z_by_w));
+  V z = hn::MulAdd(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
   V dz = hn::Abs(hn::Sub(i.z_by_w, j.z_by_w));
   if constexpr (kSpace != Space::euclidean) {
-    cut.w = hn::MulAdd(wi, i.by_w, hn::Mul(wj, j.by_w));
-    z = hn::Div(z, cut.w);
+    const V w = hn::MulAdd(hj, i.by_w, hn::Mul(hi, j.by_w));
+    z = hn::Mul(z, by(w));
+    cut.w = hn::Mul(w, by_sum);
     dz = hn::Mul(hn::Set(d, leaf.largest_w), hn::MulAdd(hn::Set(d, leaf.height_bound), hn::Abs(hn::Sub(i.by_w, j.by_w)), dz));
   } else {
-    cut.w = hn::Set(d, 1.0f);
+    z = hn::Mul(z, by_sum);
+    cut.w = by_sum;
   }
   cut.a = hn::MulSub(z, hn::Set(d, ray.slope), hn::Set(d, ray.height));
-  cut.a_error = hn::MulAdd(hn::Mul(weight_error, dz), hn::Set(d, std::fabs(ray.slope)), hn::Set(d, ray.slope_error));
+  cut.a_error = hn::MulAdd(hn::Mul(weight_error, dz), hn::Set(d, ray.steepness), hn::Set(d, ray.slope_error));
   return cut;
+}
+
+/// What the float test of a block found out.
+struct alignas(32) Verdict {
+  float f_one[8], f_two[8];         ///< t − tanκ(a) at the two crossings
+  float farther[8];                 ///< the larger t of the two, a little more
+  std::uint32_t candidates = 0;     ///< bit per lane: the triangle may be met
+  std::uint32_t sure = 0;           ///< of these: it is met exactly once, between the crossings
+};
+
+HWY_INLINE std::uint32_t bits_of(M mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(D(), mask, bits);
+  return bits[0];
 }
 
 /// Which of eight triangles the ray may meet between `start` and `end`.
 /// Conservative: with f = t − tanκ(a) at the two crossings, a triangle is dropped only when f has surely the same sign at both and neither is
-/// nearer to 0 than the curve in between can bend, or both crossings surely lie beyond the chart's heights, or beside the ray's ends.
+/// nearer to 0 than the curve in between can bend, or both crossings surely lie beyond the chart's heights, or beside the ray's ends. It is
+/// sure when the signs differ by so much that no rounding and no bend (f′ = 0 needs |f₁ − f₂| ≤ max|f″| = 8 bends) matters.
 template <Space kSpace>
-HWY_INLINE std::uint32_t candidates(const Block8& block, const Chart& chart, const ChartRay& ray, const LeafConstants& leaf, float end) {
+HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, const LeafConstants& leaf, Verdict& verdict) {
   const D d;
-  std::uint32_t bits = 0;
+  verdict.candidates = verdict.sure = 0;
   for (std::size_t lane = 0; lane < 8; lane += hn::Lanes(d)) {
     Corner corner[3];
     for (int i = 0; i < 3; ++i) {
@@ -130,43 +161,52 @@ HWY_INLINE std::uint32_t candidates(const Block8& block, const Chart& chart, con
     const V h_error = hn::Set(d, ray.h_error), zero = hn::Zero(d);
     const V lowest = hn::Min(corner[0].h, hn::Min(corner[1].h, corner[2].h)), highest = hn::Max(corner[0].h, hn::Max(corner[1].h, corner[2].h));
     const M crosses = hn::And(hn::Le(lowest, h_error), hn::Ge(highest, hn::Neg(h_error)));
-    std::uint8_t mask[8] = {};
     if (hn::AllFalse(d, crosses)) continue;
     const M left0 = hn::Ge(corner[0].h, zero), left1 = hn::Ge(corner[1].h, zero), left2 = hn::Ge(corner[2].h, zero);
     const V nearest = hn::Min(hn::Abs(corner[0].h), hn::Min(hn::Abs(corner[1].h), hn::Abs(corner[2].h)));
     const M unsure = hn::Le(nearest, h_error);  // a corner on the ray's line: which edges are cut is not known
     const Cut one = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left1), corner[0], corner[2]), corner[1]);
     const Cut two = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left2), corner[0], corner[1]), corner[2]);
-    const M late = hn::Gt(hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error)), hn::Set(d, end));
-    const M early = hn::Lt(hn::Max(hn::Add(one.t, one.t_error), hn::Add(two.t, two.t_error)), hn::Set(d, ray.start));
-    M missed = hn::Or(late, early);
+    const V farther = hn::Max(hn::Add(one.t, one.t_error), hn::Add(two.t, two.t_error));
+    const M late = hn::Gt(hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error)), hn::Set(d, ray.reach));
+    M missed = hn::Or(late, hn::Lt(farther, hn::Set(d, ray.start)));
+    V f1, f2, e1, e2;
     if constexpr (kSpace == Space::euclidean) {
-      const V f1 = hn::Sub(one.t, one.a), f2 = hn::Sub(two.t, two.a);
-      const V e1 = hn::Add(one.t_error, one.a_error), e2 = hn::Add(two.t_error, two.a_error);
-      missed = hn::Or(missed, hn::Or(hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)))));
+      f1 = hn::Sub(one.t, one.a);
+      f2 = hn::Sub(two.t, two.a);
+      e1 = hn::Add(one.t_error, one.a_error);
+      e2 = hn::Add(two.t_error, two.a_error);
+      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
+      missed = hn::Or(missed, hn::Or(over, under));
     } else {
       constexpr float kCurvature = kSpace == Space::spherical ? 1.0f : -1.0f;
       const V reach = hn::Set(d, chart.reach), minus_reach = hn::Set(d, -chart.reach), kappa = hn::Set(d, kCurvature);
       const M above = hn::And(hn::Gt(hn::Sub(one.a, one.a_error), reach), hn::Gt(hn::Sub(two.a, two.a_error), reach));
       const M below = hn::And(hn::Lt(hn::Add(one.a, one.a_error), minus_reach), hn::Lt(hn::Add(two.a, two.a_error), minus_reach));
       const V a1 = hn::Min(reach, hn::Max(minus_reach, one.a)), a2 = hn::Min(reach, hn::Max(minus_reach, two.a));
-      const V f1 = hn::Sub(one.t, pade(kappa, a1)), f2 = hn::Sub(two.t, pade(kappa, a2));
+      f1 = hn::Sub(one.t, pade(kappa, a1));
+      f2 = hn::Sub(two.t, pade(kappa, a2));
       const V steepest = hn::Set(d, chart.steepest), leaf_error = hn::Set(d, chart.leaf_error);
-      const V e1 = hn::Add(one.t_error, hn::MulAdd(steepest, one.a_error, leaf_error));
-      const V e2 = hn::Add(two.t_error, hn::MulAdd(steepest, two.a_error, leaf_error));
       // Bound of the curve's deviation from its chord: |f″|/8 over the segment, f = t − tanκ(a(u)), a projective in u.
       const V da = hn::Abs(hn::Sub(one.a, two.a)), dw = hn::Abs(hn::Sub(one.w, two.w));
       V bend = hn::Mul(da, hn::MulAdd(da, hn::Set(d, chart.bend_of_tan), hn::Mul(dw, hn::Set(d, chart.bend_of_height))));
       const M clamped = hn::Or(hn::Ne(a1, one.a), hn::Ne(a2, two.a));
       bend = hn::Add(bend, hn::IfThenElseZero(clamped, hn::Abs(hn::Sub(one.t, two.t))));
-      const M over = hn::And(hn::Gt(f1, hn::Add(e1, bend)), hn::Gt(f2, hn::Add(e2, bend)));
-      const M under = hn::And(hn::Lt(f1, hn::Neg(hn::Add(e1, bend))), hn::Lt(f2, hn::Neg(hn::Add(e2, bend))));
+      e1 = hn::Add(bend, hn::Add(one.t_error, hn::MulAdd(steepest, one.a_error, leaf_error)));
+      e2 = hn::Add(bend, hn::Add(two.t_error, hn::MulAdd(steepest, two.a_error, leaf_error)));
+      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
       missed = hn::Or(hn::Or(missed, hn::Or(above, below)), hn::Or(over, under));
+      const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
+      const M sure = hn::AndNot(hn::Or(unsure, clamped), hn::And(hn::Gt(least, hn::Mul(hn::Set(d, 3.0f), bend)), hn::Lt(hn::Mul(f1, f2), zero)));
+      verdict.sure |= bits_of(sure) << lane;
+      hn::Store(f1, d, verdict.f_one + lane);
+      hn::Store(f2, d, verdict.f_two + lane);
     }
-    hn::StoreMaskBits(d, hn::And(crosses, hn::Or(unsure, hn::Not(missed))), mask);
-    bits |= static_cast<std::uint32_t>(mask[0]) << lane;
+    hn::Store(farther, d, verdict.farther + lane);
+    const std::uint32_t bits = bits_of(hn::And(crosses, hn::Or(unsure, hn::Not(missed))));
+    if constexpr (kSpace == Space::euclidean) verdict.sure |= bits_of(hn::Not(unsure)) << lane;
+    verdict.candidates |= bits << lane;
   }
-  return bits;
 }
 
 /// t of the point b of a triangle of the block: where the search may now end.
@@ -181,69 +221,108 @@ HWY_INLINE float t_of(const Block8& block, int lane, const ChartRay& ray, const 
   return t + 2 * ray.t_error + 4e-6f * std::fabs(t);
 }
 
+/// A child on the stack, nearest first when compared as a number: where the ray enters it (as an integer of the same order) and which it is.
+using Entry = std::uint64_t;
+
+HWY_INLINE std::uint32_t order_of(float t) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &t, 4);
+  return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+HWY_INLINE void sort(Entry& a, Entry& b) {  // the nearer one to b: on top
+  const Entry near = a < b ? a : b;
+  a = a < b ? b : a;
+  b = near;
+}
+
+HWY_INLINE int lowest_bit(std::uint32_t bits) { return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)); }
+
 template <Space kSpace, int kTerms, bool kAny, bool kCount>
 bool walk(const Walk& walk_of) {
   const Chart& chart = *walk_of.chart;
-  ChartRay ray = chart_ray(kSpace, chart, *walk_of.ray, walk_of.height_bound, walk_of.best->t);
+  ChartRay ray = chart_ray<kSpace>(chart, *walk_of.ray, walk_of.height_bound, walk_of.best->t);
   if (ray.misses) return false;
-  const RayPlane plane = plane_of(kSpace, *walk_of.ray);
+  RayPlane plane;
+  bool planned = false;
   const LeafConstants leaf{static_cast<float>(walk_of.height_bound), chart.largest_w};
-  struct Entry {
-    float enter;
-    std::uint32_t child;
-  };
   Entry stack[8 * kDeepest];
-  int depth = 0;
-  stack[depth++] = {-kNever, 0};
+  Entry* top = stack;
   bool found = false;
-  while (depth > 0) {
-    const Entry entry = stack[--depth];
-    if (entry.enter > ray.reach) continue;
-    std::uint32_t child = entry.child;
+  std::uint32_t child = 0;
+  Verdict verdict;
+  for (;;) {
     while (!(child & kBlock)) {
       if constexpr (kCount) ++walk_of.counts->nodes;
       const Node8& node = chart.nodes[child];
       alignas(32) float enters[8];
       std::uint32_t bits = touched<kTerms>(node, chart, ray, ray.reach, enters);
-      if (bits == 0) {
-        child = kNone;
-        break;
-      }
-      // The nearest child next; the others on the stack, the nearer on top.
-      int lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+      if (bits == 0) goto pop;
+      const int first = lowest_bit(bits);
       bits &= bits - 1;
-      Entry nearest{enters[lane], node.child[lane]};
-      const int base = depth;
-      while (bits) {
-        lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-        bits &= bits - 1;
-        Entry other{enters[lane], node.child[lane]};
-        if (other.enter < nearest.enter) std::swap(other, nearest);
-        int at = depth++;
-        for (; at > base && stack[at - 1].enter < other.enter; --at) stack[at] = stack[at - 1];
-        stack[at] = other;
+      if (bits == 0) {
+        child = node.child[first];
+        continue;
       }
-      child = nearest.child;
+      const auto entry = [&](int lane) { return static_cast<Entry>(order_of(enters[lane])) << 32 | node.child[lane]; };
+      Entry a = entry(first), b = entry(lowest_bit(bits));
+      bits &= bits - 1;
+      sort(a, b);
+      if (bits == 0) {
+        *top++ = a;
+        child = static_cast<std::uint32_t>(b);
+        continue;
+      }
+      Entry* const base = top;
+      *top++ = a;
+      *top++ = b;
+      do {  // insertion: rarely more than one or two are left
+        Entry other = entry(lowest_bit(bits));
+        bits &= bits - 1;
+        Entry* at = top++;
+        for (; at > base && at[-1] < other; --at) *at = at[-1];
+        *at = other;
+      } while (bits);
+      child = static_cast<std::uint32_t>(*--top);
     }
-    if (child == kNone) continue;
-    const Block8& block = chart.blocks[child & ~kBlock];
-    if constexpr (kCount) ++walk_of.counts->blocks;
-    for (std::uint32_t bits = candidates<kSpace>(block, chart, ray, leaf, ray.reach); bits; bits &= bits - 1) {
-      const int lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-      const std::uint32_t triangle = block.triangle[lane];
-      if (triangle == kNone) continue;
-      if constexpr (kCount) ++walk_of.counts->candidates;
-      const auto& v = walk_of.soup->triangles[triangle];
-      const Vertex* vertices = walk_of.soup->vertices.data();
-      const TriangleHit hit = intersect(plane, vertices[v[0]], vertices[v[1]], vertices[v[2]], walk_of.best->t);
-      if (!hit.found) continue;
-      found = true;
-      *walk_of.best = {triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
-      if constexpr (kAny) return true;
-      ray.reach = std::min(ray.reach, t_of(block, lane, ray, *walk_of.best));
+    {
+      const Block8& block = chart.blocks[child & ~kBlock];
+      if constexpr (kCount) ++walk_of.counts->blocks;
+      judge<kSpace>(block, chart, ray, leaf, verdict);
+      for (std::uint32_t bits = verdict.candidates; bits; bits &= bits - 1) {
+        const int lane = lowest_bit(bits);
+        const std::uint32_t triangle = block.triangle[lane];
+        if (triangle == kNone) continue;
+        if constexpr (kCount) ++walk_of.counts->candidates;
+        const auto& v = walk_of.soup->triangles[triangle];
+        const Vertex* vertices = walk_of.soup->vertices.data();
+        if (!planned) plane = plane_of(kSpace, *walk_of.ray), planned = true;
+        const Vertex* const corners[3] = {vertices + v[0], vertices + v[1], vertices + v[2]};
+        const bool sure = verdict.sure >> lane & 1;
+        TriangleHit hit;
+        if (kSpace != Space::euclidean && sure) {
+          const double f = verdict.f_one[lane];
+          hit = exact::meet_once<kSpace>(plane, corners, walk_of.best->t, f / (f - verdict.f_two[lane]));
+        } else {
+          hit = exact::meet<kSpace>(plane, corners, walk_of.best->t);
+        }
+        if (!hit.found) continue;
+        found = true;
+        *walk_of.best = {triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
+        if constexpr (kAny) return true;
+        // From the float test where possible: the walk goes on without waiting for the exact hit.
+        ray.reach = std::min(ray.reach, sure ? verdict.farther[lane] : t_of(block, lane, ray, *walk_of.best));
+      }
+    }
+  pop:
+    for (;;) {
+      if (top == stack) return found;
+      const Entry entry = *--top;
+      if (static_cast<std::uint32_t>(entry >> 32) > order_of(ray.reach)) continue;
+      child = static_cast<std::uint32_t>(entry);
+      break;
     }
   }
-  return found;
 }
 
 template <bool kAny, bool kCount>
@@ -251,7 +330,9 @@ bool walk_chart(Space space, const Walk& walk_of) {
   const int terms = walk_of.chart->terms;
   if (space == Space::euclidean) return walk<Space::euclidean, 1, kAny, kCount>(walk_of);
   if (space == Space::spherical)
-    return terms == 4 ? walk<Space::spherical, 4, kAny, kCount>(walk_of) : walk<Space::spherical, 7, kAny, kCount>(walk_of);
+    return terms == 2   ? walk<Space::spherical, 2, kAny, kCount>(walk_of)
+           : terms == 4 ? walk<Space::spherical, 4, kAny, kCount>(walk_of)
+                        : walk<Space::spherical, 7, kAny, kCount>(walk_of);
   return terms == 3   ? walk<Space::hyperbolic, 3, kAny, kCount>(walk_of)
          : terms == 5 ? walk<Space::hyperbolic, 5, kAny, kCount>(walk_of)
                       : walk<Space::hyperbolic, 7, kAny, kCount>(walk_of);

@@ -130,14 +130,14 @@ void choose_polynomial(Space space, double radius, Chart& chart) {
     chart.poly_error = static_cast<float>(4e-6 * radius);
     return;
   }
-  for (const int terms : space == Space::spherical ? std::vector<int>{4, 7} : std::vector<int>{3, 5, 7}) {
+  for (const int terms : space == Space::spherical ? std::vector<int>{2, 4, 7} : std::vector<int>{3, 5, 7}) {
     double poly[7];
     fit(space, radius, terms, poly);
     for (int k = 0; k < 7; ++k) chart.poly[k] = static_cast<float>(poly[k]);
     chart.terms = terms;
     const double error = error_of(space, chart.poly, terms, radius);
     chart.poly_error = static_cast<float>(1.01 * error + 4e-6 * (1 + geometry::tan_k(space, radius)));
-    if (is_increasing(chart.poly, terms, radius) && (error < 3e-3 || terms == 7)) return;
+    if (is_increasing(chart.poly, terms, radius) && (error < 4e-3 * radius || terms == 7)) return;
   }
   ORBC_CHECK(is_increasing(chart.poly, chart.terms, radius), ==, true);
 }
@@ -188,7 +188,7 @@ ChartPlans plan_charts(Space space, const Soup& soup) {
 Chart make_chart(Space space, const ChartPlan& plan, const Soup& soup) {
   Chart chart;
   if (geometry::distance(space, plan.centre, Point()) > 1e-3 || space == Space::euclidean)
-    chart.chart_from_room = geometry::matrix(geometry::inverse(geometry::translation_to(space, plan.centre)));
+    chart.chart_from_room = geometry::matrix(geometry::inverse(geometry::translation_to(space, plan.centre))), chart.moved = true;
   for (const std::uint32_t t : plan.triangles)
     for (const std::uint32_t i : soup.triangles[t]) {
       const Vertex& v = soup.vertices[i];
@@ -199,6 +199,8 @@ Chart make_chart(Space space, const ChartPlan& plan, const Soup& soup) {
       chart.largest_w = std::max(chart.largest_w, static_cast<float>(1.000001 * x.w));
     }
   chart.radius = std::max(chart.radius * 1.000001, 1e-3);
+  chart.tangent = geometry::tan_k(space, chart.radius);
+  chart.nearest_foot2 = std::pow(geometry::cos_k(space, chart.radius * 1.0001), 2);
   choose_polynomial(space, chart.radius, chart);
   chart.reach = static_cast<float>(1.02 * chart.radius);
   if (space != Space::euclidean) add_leaf_bounds(space, chart);

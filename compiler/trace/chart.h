@@ -10,7 +10,10 @@ namespace orbc::trace {
 /// A gnomonic chart around its own centre, and the tree of the triangles that belong to it.
 struct Chart {
   geometry::Matrix3 chart_from_room{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  bool moved = false;               ///< the map is not the identity
   double radius = 0;                ///< largest arc from the centre to a corner of a triangle
+  double tangent = 0;               ///< tanκ(radius)
+  double nearest_foot2 = 0;         ///< cosκ²(radius): geodesics whose foot lies farther out miss the chart
   float extent = 0;                 ///< largest |(x, y)/w| of a corner
   float largest_w = 1;              ///< of a corner: 1 on S², cosh(radius) on H²
   int terms = 1;                    ///< of the odd polynomial

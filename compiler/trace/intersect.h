@@ -24,7 +24,21 @@ struct RayPlane {
   geometry::Ambient sideward;  ///< covector of v
   double z = 0, c = 1, m = 0, t_min = 0;
 };
-[[nodiscard]] RayPlane plane_of(geometry::Space space, const Ray& ray);
+[[nodiscard]] inline RayPlane plane_of(geometry::Space space, const Ray& ray) {
+  const auto& p = ray.at;
+  const auto& v = ray.along;
+  const double k = geometry::curvature(space);
+  RayPlane plane;
+  plane.space = space;
+  plane.side = {p.x * v.y - p.y * v.x, p.y * v.w - p.w * v.y, p.w * v.x - p.x * v.w};
+  plane.forward = {p.w, k * p.x, k * p.y};
+  plane.sideward = {space == geometry::Space::euclidean ? -(p.x * v.x + p.y * v.y) : k * v.w, v.x, v.y};
+  plane.z = ray.z;
+  plane.c = ray.c;
+  plane.m = ray.m;
+  plane.t_min = ray.t_min;
+  return plane;
+}
 
 /// The first point with t_min < t < t_max where the ray meets the geodesic triangle (design §2), in double precision: the reference, and
 /// the last word of the BVH, which therefore finds exactly what trying all triangles finds.

@@ -37,7 +37,7 @@ inline Case make_case(geometry::Space space, int steps, int around, const Execut
   c.name = space == Space::spherical ? "S2" : space == Space::euclidean ? "E2" : "H2";
   room::Room room = space == Space::spherical ? regular_room(space, 3, 2) : space == Space::euclidean ? regular_room(space, 4, 2, 0.62 * std::numbers::sqrt2) : regular_room(space, 5, 2);
   c.placed = furnished(std::move(room), 1, 0.9);
-  c.placed.parts.push_back(torus_knot(space, {}, 0.19, 0.055, 0.5, steps, around));
+  c.placed.parts.push_back(torus_knot(space, {}, 0.21, 0.065, 0.5, steps, around));
   c.placed.looks.resize(1);
   c.rays = camera_rays(space, 800, 600);
   (void)execute;
