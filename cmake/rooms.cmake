@@ -50,3 +50,6 @@ if(EXISTS ${CMAKE_SOURCE_DIR}/compiler/cli)
   target_link_libraries(orbc PRIVATE orbc::cli)
   install(TARGETS orbc)
 endif()
+file(GLOB make_meshes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scripts/make_meshes/*.cpp)
+add_executable(make_meshes EXCLUDE_FROM_ALL ${make_meshes})  # writes examples/meshes; its README says how
+target_link_libraries(make_meshes PRIVATE orbc::mesh)

@@ -14,3 +14,7 @@ orbc_system_test(system_povray_pipe povray_pipe.py 180 render)
 orbc_system_test(system_gltf_valid gltf_valid.py 120 fast)
 orbc_system_test(system_svg_pictures svg_pictures.py 120 fast)
 orbc_system_test(system_blender blender.py 300 render slow)
+
+add_executable(mirror_room ${CMAKE_SOURCE_DIR}/tests/system/mirror_room.cpp)
+target_link_libraries(mirror_room PRIVATE orbc::driver orbc::pov)
+orbc_system_test(system_mirrors_against_copies mirrors_against_copies.py 300 render)
