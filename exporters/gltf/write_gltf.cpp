@@ -97,11 +97,16 @@ void write_primitive(Json& json, const Layout& layout, std::size_t part, std::si
   json.end_object().key("indices").number(accessor).key("material").number(material).end_object();
 }
 
-/// All parts in one mesh; its extras say which triangles belong to which copy.
-void write_joint_mesh(Json& json, const Product& product, const Layout& layout) {
+/// All parts in one mesh.
+void write_joint_mesh(Json& json, const Layout& layout) {
   json.object().key("name").string("copies").key("primitives").array();
   for (std::size_t p = 0; p < layout.parts.size(); ++p) write_primitive(json, layout, p, 0);
-  json.end_array().key("extras").object().key("orbc_copies").array();
+  json.end_array().end_object();
+}
+
+/// Which triangles of the joint mesh belong to which copy. At the root, because Blender turns the extras of a mesh into properties, 11 KB a copy.
+void write_ranges(Json& json, const Product& product, const Layout& layout) {
+  json.key("extras").object().key("orbc_copies").array();
   for (std::size_t p = 0; p < layout.parts.size(); ++p) {
     const Part& part = layout.parts[p];
     for (std::size_t c = part.first_copy; c < part.first_copy + part.copy_count; ++c) {
@@ -113,7 +118,7 @@ void write_joint_mesh(Json& json, const Product& product, const Layout& layout) 
       json.end_object();
     }
   }
-  json.end_array().end_object().end_object();
+  json.end_array().end_object();
 }
 
 /// The distinct weights, in order of first use, and which one each part has.
@@ -241,7 +246,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
 
   if (drawn) {
     json.key("meshes").array();
-    if (!options.nodes_per_copy) write_joint_mesh(json, product, layout);
+    if (!options.nodes_per_copy) write_joint_mesh(json, layout);
     for (std::size_t p = 0; options.nodes_per_copy && p < layout.parts.size(); ++p) {
       json.object().key("name").string(copy_name(product.copies[layout.parts[p].first_copy])).key("primitives").array();
       write_primitive(json, layout, p, tints.of_part[p]);
@@ -251,6 +256,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
     write_materials(json, layout, tints, uris.atlas, options.interpolate);
     write_accessors(json, layout);
     write_buffers(json, layout, uris.bin);
+    if (!options.nodes_per_copy) write_ranges(json, product, layout);
   }
   json.end_object();
   pen.flush();

@@ -15,7 +15,7 @@ struct GltfOptions {
 
 /// Writes the product as glTF 2.0: unlit triangles that any viewer draws with straight rays.
 /// In:     copies whose triangles use only their own vertices.
-/// Makes:  by default one primitive with the weights in COLOR_0 (u16, linear) and words and ranges of the copies in the mesh's extras; positions
+/// Makes:  by default one primitive with the weights in COLOR_0 (u16, linear) and words and ranges of the copies in the root's extras (orbc_copies); positions
 ///         turned to glTF's y-up axes exactly, so that Blender shows the product's coordinates; a camera node, whose extras (orbc_projection,
 ///         orbc_width, orbc_height, orbc_fov_deg, orbc_background) carry what glTF cannot say. The same bytes for the same product; the Khronos
 ///         validator finds neither errors nor warnings. A product without triangles becomes a scene with a camera.
