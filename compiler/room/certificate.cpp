@@ -39,7 +39,8 @@ double angle_bound(int k, const Line& before, const Line& after, const CornerAng
   const Enclosed a = enclosed(before), b = enclosed(after);
   const Interval aa = inner(k, a, a), bb = inner(k, b, b), ab = inner(k, a, b), sine2 = aa * bb - ab * ab;
   if (!(aa.low() > 0 && bb.low() > 0 && sine2.low() > 0)) return kInfinite;
-  const Interval norm = sqrt(aa) * sqrt(bb), sine = sqrt(sine2) / norm, cosine = -ab / norm, ws = enclosed(wanted.sin), wc = enclosed(wanted.cos);
+  const Interval norm = sqrt(aa) * sqrt(bb), sine = sqrt(sine2) / norm, cosine = -ab / norm, ws = enclosed(wanted.sin),
+                 wc = enclosed(wanted.cos);
   return difference_bound(sine * wc - cosine * ws, cosine * wc + sine * ws);
 }
 
@@ -64,7 +65,8 @@ double length_bound(int k, const Ambient& p, const Ambient& q, double length) {
   if (k > 0) {
     // Half the chord is the sine of half the distance, √(4 − chord²)/2 its cosine (0 for the ends of a half circle).
     const Interval rest2 = Interval(4) - chord2, rest = rest2.low() > 0 ? sqrt(rest2) : Interval::around(0, sqrt(abs(rest2.high())));
-    const Interval sine = sqrt(chord2) / Interval(2), cosine = rest / Interval(2), ws = enclosed(sin(Real(length) / 2)), wc = enclosed(cos(Real(length) / 2));
+    const Interval sine = sqrt(chord2) / Interval(2), cosine = rest / Interval(2), ws = enclosed(sin(Real(length) / 2)),
+                   wc = enclosed(cos(Real(length) / 2));
     return 2 * difference_bound(sine * wc - cosine * ws, cosine * wc + sine * ws);
   }
   // arsinh has slope ≤ 1: its value at the upper end, minus the width.
@@ -118,11 +120,13 @@ Certificate certify(const Room& room) {
   for (std::size_t i = 0; i < n; ++i) {
     const Line &before = room.walls[(i + n - 1) % n].line, &after = room.walls[i].line;
     c.angle_residual = std::max(c.angle_residual, angle_bound(k, before, after, angles[i]));
-    c.closure_residual = std::max({c.closure_residual, distance_bound(k, before, room.corners[i].at), distance_bound(k, after, room.corners[i].at)});
+    c.closure_residual =
+        std::max({c.closure_residual, distance_bound(k, before, room.corners[i].at), distance_bound(k, after, room.corners[i].at)});
     c.side_residual = std::max(c.side_residual, length_bound(k, room.corners[i].at, room.corners[(i + 1) % n].at, room.walls[i].length));
   }
   if (n == 0)
-    for (const geometry::Point& p : room.outline) c.closure_residual = std::max(c.closure_residual, distance_bound(k, room.walls[0].line, p));
+    for (const geometry::Point& p : room.outline)
+      c.closure_residual = std::max(c.closure_residual, distance_bound(k, room.walls[0].line, p));
   c.area_residual = area_bound(room);
   return c;
 }
@@ -136,8 +140,9 @@ bool is_granted(const Room& room, const Certificate& c) {
   for (const Corner& corner : room.corners) sharpest = std::min(sharpest, std::sin(corner.angle));
   const auto within = [](double value, double explained, double most) { return value <= explained && value <= most; };
   const double count = static_cast<double>(std::max<std::size_t>(room.outline.size(), 4));
-  return c.convex && within(c.angle_residual, rounding / sharpest, std::max(1e-2 * sharpest, 16 * kUlp)) && within(c.closure_residual, rounding * scale, 1e-2 * scale) &&
-         within(c.side_residual, rounding * scale, 1e-2 * scale) && within(c.area_residual, count * rounding * scale * scale, 1e-1 * scale * scale);
+  return c.convex && within(c.angle_residual, rounding / sharpest, std::max(1e-2 * sharpest, 16 * kUlp)) &&
+         within(c.closure_residual, rounding * scale, 1e-2 * scale) && within(c.side_residual, rounding * scale, 1e-2 * scale) &&
+         within(c.area_residual, count * rounding * scale * scale, 1e-1 * scale * scale);
 }
 
 }  // namespace orbc::room

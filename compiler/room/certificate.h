@@ -4,12 +4,14 @@
 namespace orbc::room {
 
 /// Measures a realised room from its stored doubles alone, not from how it was made.
-/// Exact:  `convex` (signs of 3×3 determinants of the stored vectors, no tolerance). The residuals are upper bounds by interval arithmetic of
+/// Exact:  `convex` (signs of 3×3 determinants of the stored vectors, no tolerance). The residuals are upper bounds by interval arithmetic
+/// of
 ///         168 bits around the stored doubles, which count as exact; they contain the rounding of the stored room, nothing else.
 /// Makes:  infinite residuals where the stored doubles define no angle or no distance any more.
 [[nodiscard]] Certificate certify(const Room& room);
 
-/// Whether the residuals are what rounding to doubles explains at this size (in H² doubles lose e^(2r) at distance r) and in any case small.
+/// Whether the residuals are what rounding to doubles explains at this size (in H² doubles lose e^(2r) at distance r) and in any case
+/// small.
 [[nodiscard]] bool is_granted(const Room& room, const Certificate& certificate);
 
 }  // namespace orbc::room

@@ -34,15 +34,19 @@ bool crossing(const Cut& a, const Cut& b) {
 
 std::optional<Diagnostic> fault(int walls, const Cut& cut) {
   const auto [a, b] = cut.walls;
-  if (a < 1 || b > walls || a == b) return bad_cuts(fmt::format("a cut joins two different walls between 1 and {}, not {} and {}", walls, a, b));
-  if (b - a == 1 || b - a == walls - 1) return bad_cuts(fmt::format("walls {} and {} share a corner: no cut is perpendicular to both", a, b));
+  if (a < 1 || b > walls || a == b)
+    return bad_cuts(fmt::format("a cut joins two different walls between 1 and {}, not {} and {}", walls, a, b));
+  if (b - a == 1 || b - a == walls - 1)
+    return bad_cuts(fmt::format("walls {} and {} share a corner: no cut is perpendicular to both", a, b));
   if (!(cut.length > 0 && cut.length <= kLongestCut))
-    return bad_cuts(fmt::format("the cut of walls {} and {} has the length {}", a, b, cut.length), fmt::format("lengths of cuts are more than 0 and at most {}", kLongestCut));
+    return bad_cuts(fmt::format("the cut of walls {} and {} has the length {}", a, b, cut.length),
+                    fmt::format("lengths of cuts are more than 0 and at most {}", kLongestCut));
   return std::nullopt;
 }
 
 // Splits the dual polygon `vertices` (increasing walls) along the cuts, and fans what is left at its last vertex.
-void fill(const std::vector<int>& vertices, std::map<std::array<int, 2>, double>& cuts, double default_length, std::vector<std::array<int, 3>>* triangles) {
+void fill(const std::vector<int>& vertices, std::map<std::array<int, 2>, double>& cuts, double default_length,
+          std::vector<std::array<int, 3>>* triangles) {
   const std::size_t n = vertices.size();
   if (n < 3) return;
   if (n == 3) {
@@ -51,7 +55,8 @@ void fill(const std::vector<int>& vertices, std::map<std::array<int, 2>, double>
   }
   std::size_t from = 0, to = 0;
   for (const auto& [walls, length] : cuts) {
-    const auto first = std::lower_bound(vertices.begin(), vertices.end(), walls[0]), second = std::lower_bound(vertices.begin(), vertices.end(), walls[1]);
+    const auto first = std::lower_bound(vertices.begin(), vertices.end(), walls[0]),
+               second = std::lower_bound(vertices.begin(), vertices.end(), walls[1]);
     if (first == vertices.end() || second == vertices.end() || *first != walls[0] || *second != walls[1]) continue;
     const auto gap = static_cast<std::size_t>(second - first);
     if (gap == 1 || gap == n - 1) continue;
@@ -93,7 +98,8 @@ class Placing {
     std::vector<std::array<int, 3>> triangles;
     fill(all_walls(n), lengths, 1, &triangles);
     for (const auto& t : triangles)
-      for (int i = 0; i < 3; ++i) third_[{t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>((i + 1) % 3)]}] = t[static_cast<std::size_t>((i + 2) % 3)];
+      for (int i = 0; i < 3; ++i)
+        third_[{t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>((i + 1) % 3)]}] = t[static_cast<std::size_t>((i + 2) % 3)];
   }
 
   // Nothing when three lines cannot lie like that (corners wider than π/2 only).
@@ -121,7 +127,8 @@ class Placing {
 
   // n_c = x n_a + y n_b − z m, where m is the cut's own line with the new piece to its left.
   bool place_third(int a, int b, int c) {
-    const Real &g = cosine_.at(ordered(a, b)), &s = sine_.at(ordered(a, b)), &ca = cosine_.at(ordered(a, c)), &cb = cosine_.at(ordered(b, c));
+    const Real &g = cosine_.at(ordered(a, b)), &s = sine_.at(ordered(a, b)), &ca = cosine_.at(ordered(a, c)),
+               &cb = cosine_.at(ordered(b, c));
     const RealVector m = (-1 / s) * dual(-1, cross(line(a), line(b)));
     const Real x = (ca + g * cb) / (s * s), y = (cb + g * ca) / (s * s), z2 = 1 + x * ca + y * cb;
     if (!(z2 > 0)) return false;
@@ -138,7 +145,8 @@ class Placing {
 
 Result<std::vector<Cut>> complete_cuts(int walls, const std::vector<Cut>& named, double default_length) {
   if (!(default_length > 0 && default_length <= kLongestCut))
-    return bad_cuts(fmt::format("the length of cuts is {}", default_length), fmt::format("lengths of cuts are more than 0 and at most {}", kLongestCut));
+    return bad_cuts(fmt::format("the length of cuts is {}", default_length),
+                    fmt::format("lengths of cuts are more than 0 and at most {}", kLongestCut));
   Diagnostics faults;
   std::map<std::array<int, 2>, double> cuts;
   std::vector<Cut> good;
@@ -151,7 +159,8 @@ Result<std::vector<Cut>> complete_cuts(int walls, const std::vector<Cut>& named,
     const auto [a, b] = cut.walls;
     if (cuts.count(cut.walls)) faults.push_back(bad_cuts(fmt::format("the cut of walls {} and {} is named twice", a, b)));
     for (const Cut& other : good)
-      if (crossing(cut, other)) faults.push_back(bad_cuts(fmt::format("the cuts {}–{} and {}–{} cross", a, b, other.walls[0], other.walls[1])));
+      if (crossing(cut, other))
+        faults.push_back(bad_cuts(fmt::format("the cuts {}–{} and {}–{} cross", a, b, other.walls[0], other.walls[1])));
     cuts[cut.walls] = cut.length;
     good.push_back(cut);
   }
@@ -174,9 +183,11 @@ Result<Polygon> glued_polygon(const std::vector<CornerAngle>& angles, const std:
     if (auto polygon = closed_polygon(std::move(*lines))) return *std::move(polygon);
   // With corners up to π/2 the pieces always fit; only 50 digits can have been too few.
   if (std::all_of(angles.begin(), angles.end(), [](const CornerAngle& angle) { return angle.cos >= 0; }))
-    return make_error("room.no-certificate", "the room reaches more than 50 curvature radii from its centre, far more than double precision carries",
+    return make_error("room.no-certificate",
+                      "the room reaches more than 50 curvature radii from its centre, far more than double precision carries",
                       "longer cuts, a decomposition with cuts on several walls, or the shape tangential reach less far");
-  return make_error("room.no-such-shape", "corners this wide leave no room between cuts of these lengths", "choose other cuts or lengths, or the shape tangential");
+  return make_error("room.no-such-shape", "corners this wide leave no room between cuts of these lengths",
+                    "choose other cuts or lengths, or the shape tangential");
 }
 
 }  // namespace orbc::room

@@ -50,7 +50,8 @@ std::vector<RealVector> moved(const Chain& chain, const RealVector& first, const
   return lines;
 }
 
-std::optional<Polygon> assembled(std::size_t n, const std::array<std::size_t, 3>& free, const std::array<Chain, 3>& chains, const std::array<RealVector, 3>& free_lines) {
+std::optional<Polygon> assembled(std::size_t n, const std::array<std::size_t, 3>& free, const std::array<Chain, 3>& chains,
+                                 const std::array<RealVector, 3>& free_lines) {
   std::vector<RealVector> lines(n);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::vector<RealVector> placed = moved(chains[i], free_lines[i], free_lines[(i + 1) % 3]);
@@ -61,10 +62,14 @@ std::optional<Polygon> assembled(std::size_t n, const std::array<std::size_t, 3>
 
 std::optional<Diagnostic> fault(int walls, const std::map<int, double>& lengths) {
   if (static_cast<int>(lengths.size()) != walls - 3)
-    return make_error("room.bad-lengths", fmt::format("{} side lengths are given, a room of {} walls has {} free ones", lengths.size(), walls, walls - 3));
+    return make_error("room.bad-lengths",
+                      fmt::format("{} side lengths are given, a room of {} walls has {} free ones", lengths.size(), walls, walls - 3));
   for (const auto& [wall, length] : lengths) {
-    if (wall < 1 || wall > walls) return make_error("room.bad-lengths", fmt::format("there is no wall {}: walls are numbered from 1 to {}", wall, walls));
-    if (!(length > 0 && length <= 40)) return make_error("room.bad-lengths", fmt::format("wall {} has the length {}", wall, length), "lengths are more than 0 and at most 40");
+    if (wall < 1 || wall > walls)
+      return make_error("room.bad-lengths", fmt::format("there is no wall {}: walls are numbered from 1 to {}", wall, walls));
+    if (!(length > 0 && length <= 40))
+      return make_error("room.bad-lengths", fmt::format("wall {} has the length {}", wall, length),
+                        "lengths are more than 0 and at most 40");
   }
   return std::nullopt;
 }

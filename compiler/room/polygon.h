@@ -19,7 +19,7 @@ struct CornerAngle {
 struct Polygon {
   geometry::Space space = geometry::Space::euclidean;
   std::vector<RealVector> lines, corners;
-  Real inradius = 0;                ///< 0 when no circle touches all walls
+  Real inradius = 0;  ///< 0 when no circle touches all walls
 };
 
 /// The polygon with these angles whose walls all touch one circle; its centre is the origin, corner 1 in the direction of +x.
@@ -49,7 +49,8 @@ struct Polygon {
 /// Computes the corners from the lines; nothing when neighbours do not meet or a wall would run backwards. H² only.
 [[nodiscard]] std::optional<Polygon> closed_polygon(std::vector<RealVector> lines);
 
-/// Moves the polygon: incentre (if a circle touches all walls to 1e-12) or normalised mean of the corners to the origin, corner 1 to +x. H² only.
+/// Moves the polygon: incentre (if a circle touches all walls to 1e-12) or normalised mean of the corners to the origin, corner 1 to +x. H²
+/// only.
 [[nodiscard]] Polygon centred(const Polygon& polygon);
 
 /// Length of wall i.

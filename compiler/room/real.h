@@ -8,7 +8,8 @@ namespace orbc::room {
 
 /// 168 bits (50 digits): rooms are solved and placed with it and rounded to double once, at the end. A polygon that reaches r radii from
 /// its centre loses a factor e^(2r) of precision while it is built; at r = 18, where doubles know nothing any more, 34 digits are left.
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<168, boost::multiprecision::digit_base_2>, boost::multiprecision::et_off>;
+using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<168, boost::multiprecision::digit_base_2>,
+                                           boost::multiprecision::et_off>;
 
 /// An ambient vector (w, x, y) or a covector of a line, as in geometry/point.h and geometry/line.h.
 struct RealVector {

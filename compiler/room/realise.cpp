@@ -35,20 +35,23 @@ Diagnostics shape_faults(const Shape& shape, Space space, bool strip, bool recta
   Diagnostics faults;
   const auto good = [](double size) { return size >= kLeastScale && size <= kLargestScale; };
   for (const auto& [name, size] : {std::pair{"scale", shape.scale}, {"aspect", shape.aspect}, {"strip_length", shape.strip_length}})
-    if (!good(size)) faults.push_back(make_error("room.bad-size", fmt::format("{} is {}", name, size), fmt::format("sizes lie between {} and {}", kLeastScale, kLargestScale)));
+    if (!good(size))
+      faults.push_back(make_error("room.bad-size", fmt::format("{} is {}", name, size),
+                                  fmt::format("sizes lie between {} and {}", kLeastScale, kLargestScale)));
   if (!faults.empty()) return faults;
-  if (shape.scale != 1 && space != Space::euclidean) faults.push_back(unused("scale", "in the Euclidean plane: curved rooms are measured in curvature radii"));
+  if (shape.scale != 1 && space != Space::euclidean)
+    faults.push_back(unused("scale", "in the Euclidean plane: curved rooms are measured in curvature radii"));
   if (shape.aspect != 1 && !rectangle) faults.push_back(unused("aspect", "for *2222"));
   if (shape.strip_length != 4 && !strip) faults.push_back(unused("strip_length", "for the strip **"));
   if (!shape.cuts.empty() && shape.kind != ShapeKind::paper) faults.push_back(unused("cuts", "with shape: paper"));
   if (!shape.lengths.empty() && shape.kind != ShapeKind::lengths) faults.push_back(unused("lengths", "with shape: lengths"));
   const bool chosen = !shape.cuts.empty() || (shape.kind == ShapeKind::lengths && !shape.lengths.empty());
   if (chosen && space != Space::hyperbolic)
-    faults.push_back(make_error("room.shape-needs-hyperbolic", "cuts and side lengths shape hyperbolic rooms only",
-                                space == Space::euclidean ? "in the Euclidean plane there are scale and, for *2222, aspect" : "spherical rooms are rigid"));
+    faults.push_back(make_error(
+        "room.shape-needs-hyperbolic", "cuts and side lengths shape hyperbolic rooms only",
+        space == Space::euclidean ? "in the Euclidean plane there are scale and, for *2222, aspect" : "spherical rooms are rigid"));
   return faults;
 }
-
 
 Result<Polygon> hyperbolic_polygon(const std::vector<CornerAngle>& angles, const Shape& shape) {
   const int walls = static_cast<int>(angles.size());
@@ -69,7 +72,8 @@ Result<Polygon> hyperbolic_polygon(const std::vector<CornerAngle>& angles, const
   std::string sides;
   for (const auto& [wall, length] : shape.lengths)
     if (wall >= 1 && wall <= walls && sides.size() < 200)
-      sides += fmt::format("{}{}: {:.4f}", sides.empty() ? "" : ", ", wall, static_cast<double>(side_length(*tangential, static_cast<std::size_t>(wall - 1))));
+      sides += fmt::format("{}{}: {:.4f}", sides.empty() ? "" : ", ", wall,
+                           static_cast<double>(side_length(*tangential, static_cast<std::size_t>(wall - 1))));
   for (Diagnostic& error : errors)
     if (error.code == "room.no-such-shape") error.hint = "the tangential room has {" + sides + "}; try lengths nearer to these";
   return errors;
@@ -84,7 +88,8 @@ Result<Polygon> polygon_of(Space space, const std::vector<Rational>& orders, con
     return shape.aspect >= 1 ? rectangle(short_side * ratio, short_side) : rectangle(short_side, short_side / ratio);
   }
   if (auto polygon = tangential_polygon(space, angles, shape.scale)) return *std::move(polygon);
-  return make_error("room.no-such-shape", "no convex polygon of the sphere around a circle has these corners", "corners wider than 90° cannot be combined at will");
+  return make_error("room.no-such-shape", "no convex polygon of the sphere around a circle has these corners",
+                    "corners wider than 90° cannot be combined at will");
 }
 
 double area_of(const Polygon& polygon, const Rational& chi) {
@@ -101,13 +106,19 @@ Result<Room> certified(Room room, ShapeKind kind) {
   if (is_granted(room, room.certificate)) return room;
   const Certificate& c = room.certificate;
   if (room.space == Space::hyperbolic && room.circumradius > 12)
-    return make_error("room.no-certificate", fmt::format("the room reaches {:.1f} curvature radii from its centre, farther than double precision carries", room.circumradius),
-                      kind == ShapeKind::tangential ? "corners of smaller order reach less far" : "longer cuts, a decomposition with cuts on several walls, or the shape tangential reach less far");
+    return make_error(
+        "room.no-certificate",
+        fmt::format("the room reaches {:.1f} curvature radii from its centre, farther than double precision carries", room.circumradius),
+        kind == ShapeKind::tangential ? "corners of smaller order reach less far"
+                                      : "longer cuts, a decomposition with cuts on several walls, or the shape tangential reach less far");
   if (!c.convex && kind != ShapeKind::tangential)
-    return make_error("room.no-such-shape", "walls of these lengths cross: the polygon is not convex", "choose lengths nearer to those of the shape tangential");
-  return make_error("room.no-certificate", fmt::format("the realised room is not exact enough: {}angles to {:.1e}, corners to {:.1e}, sides to {:.1e}, area to {:.1e}",
-                                                       c.convex ? "" : "not convex, ", c.angle_residual, c.closure_residual, c.side_residual, c.area_residual),
-                    "corners this narrow, or orders this near to those of another space, are beyond double precision");
+    return make_error("room.no-such-shape", "walls of these lengths cross: the polygon is not convex",
+                      "choose lengths nearer to those of the shape tangential");
+  return make_error(
+      "room.no-certificate",
+      fmt::format("the realised room is not exact enough: {}angles to {:.1e}, corners to {:.1e}, sides to {:.1e}, area to {:.1e}",
+                  c.convex ? "" : "not convex, ", c.angle_residual, c.closure_residual, c.side_residual, c.area_residual),
+      "corners this narrow, or orders this near to those of another space, are beyond double precision");
 }
 
 }  // namespace
@@ -116,7 +127,8 @@ Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shap
   const Result<Space> classified = notation::classify(orbifold, shape.span);
   if (!classified) return classified.error();
   if (!allow_non_orbifold && !notation::is_orbifold(orbifold))
-    return make_error("notation.non-orbifold-corner", notation::to_text(orbifold) + " has corners that are no integers: its images do not agree",
+    return make_error("notation.non-orbifold-corner",
+                      notation::to_text(orbifold) + " has corners that are no integers: its images do not agree",
                       "allow_non_orbifold: true makes a room of it all the same");
   const std::vector<Rational>& orders = orbifold.corners;
   const Rational chi = notation::euler_characteristic(orbifold);

@@ -7,8 +7,10 @@ namespace orbc::room {
 
 /// Realises the polygon of an orbifold in its space and certifies it.
 /// In:          corners in the author's order; real-valued ones only with `allow_non_orbifold`.
-/// Makes:       a room whose angles are π/k and whose sides are those of the shape to 1e-12, for N ≤ 40 and more.
-/// Diagnostics: notation.bad-orbifold, room.no-such-shape (lengths that no polygon has), room.bad-cuts, room.shape-needs-hyperbolic, room.no-certificate.
+/// Makes:       a room whose angles are π/k and whose sides are those of the shape to 1e-12, for N ≤ 40 and more; every stored double is
+///              the one next to the true value. Paper in S² and E² is tangential; *2222: the shorter side is 2·scale.
+/// Diagnostics: those of notation::classify, notation.non-orbifold-corner, room.no-such-shape, room.bad-cuts, room.bad-lengths,
+///              room.shape-needs-hyperbolic, room.unused-setting, room.bad-size, room.no-certificate (too wide for doubles).
 [[nodiscard]] Result<Room> realise(const notation::Orbifold& orbifold, const scene::Shape& shape = {}, bool allow_non_orbifold = false);
 
 }  // namespace orbc::room

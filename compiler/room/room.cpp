@@ -18,7 +18,8 @@ Point point_on_wall(const Room& room, int wall, double s) {
   const Point foot(room.space == Space::euclidean ? 1 : h, -w.line.w * x, -w.line.w * y);
   const Tangent along(0, y, -x);
   const double ahead = w.start.x * along.x + w.start.y * along.y;
-  const double start = room.space == Space::spherical ? std::atan2(ahead, foot.w * w.start.w + foot.x * w.start.x + foot.y * w.start.y) : geometry::asin_k(room.space, ahead);
+  const double start = room.space == Space::spherical ? std::atan2(ahead, foot.w * w.start.w + foot.x * w.start.x + foot.y * w.start.y)
+                                                      : geometry::asin_k(room.space, ahead);
   return geometry::point_along(room.space, foot, along, start + s);
 }
 

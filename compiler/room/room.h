@@ -22,8 +22,8 @@ struct Wall {
   bool reflects = true;             ///< belongs to the reflection group; only the plain end walls of `**` do not
 };
 
-/// What is known for sure of a realised room, from its stored doubles alone: exact signs, and upper bounds of residuals. In H² a double at
-/// distance r from the origin is worth e^(2r) ulps, so the residuals of wide rooms are those of the number format.
+/// What is known for sure of a realised room, from its stored doubles alone: exact signs, and upper bounds of residuals.
+/// In H² a double at distance r from the origin is worth e^(2r) ulps, so the residuals of wide rooms are those of the number format.
 struct Certificate {
   bool convex = false;              ///< exact signs of the stored ambient vectors
   double angle_residual = 0;        ///< upper bound of |angle − π/k| over all corners, by interval arithmetic
@@ -32,15 +32,16 @@ struct Certificate {
   double area_residual = 0;         ///< |area by Gauss–Bonnet of χ − area of the stored polygon|
 };
 
-/// The floor of the mirror room, realised. Centre at the origin (incentre if it has one, else the normalised mean of the corners), corner 1 in
-/// the direction of +x, corners counter-clockwise. `**` is a rectangle of four corners π/2: walls 1 and 3 are the mirrors, 2 and 4 plain ends.
+/// The floor of the mirror room, realised. Centre at the origin (incentre if it has one, else the normalised mean of the corners),
+/// corner 1 in the direction of +x, corners counter-clockwise. `**` is a rectangle of four corners π/2: walls 1 and 3 are the mirrors, 2 and 4 plain ends.
 /// Lengths in curvature radii (E²: scene units).
 struct Room {
   geometry::Space space = geometry::Space::euclidean;
   notation::Orbifold orbifold;
   std::vector<Corner> corners;      ///< `*`: none
   std::vector<Wall> walls;
-  std::vector<geometry::Point> outline;  ///< the border for exact predicates: corners and, on long walls, points between; neighbours never antipodal
+  /// The border for exact predicates: corners and, on long walls of S², points between; neighbours are never antipodal.
+  std::vector<geometry::Point> outline;
   std::vector<int> outline_wall;    ///< outline[i] → outline[i+1] lies in wall outline_wall[i] (from 0)
   double inradius = 0;              ///< 0 when there is no inscribed circle
   double circumradius = 0;          ///< largest distance of a point of the room from the origin

@@ -34,7 +34,8 @@ RealVector direction_at(int k, const RealVector& line, const RealVector& at) {
 
 // A point between the ends of a long wall. Rounding may put it an ulp inside the chord of its neighbours, which would dent the border;
 // it is pushed out until the exact predicate is content.
-Point between(const RealVector& start, const RealVector& along, const RealVector& line, const Real& s, const Point& before, const Point& after) {
+Point between(const RealVector& start, const RealVector& along, const RealVector& line, const Real& s, const Point& before,
+              const Point& after) {
   const RealVector m = cos(s) * start + sin(s) * along;
   const Rounded exact = rounded(m);
   Point point(exact.w, exact.x, exact.y);

@@ -13,7 +13,7 @@ namespace {
 using geometry::Space;
 
 struct Value {
-  Real excess, slope;   // Σ θ − π and its derivative by u
+  Real excess, slope;  // Σ θ − π and its derivative by u
 };
 
 // Σ θ(u) − π, over groups of equal corners.
@@ -106,7 +106,7 @@ CircleEquation equation_of(Space space, const std::vector<CornerAngle>& angles) 
 }
 
 struct Circle {
-  Real u;               // sinκ² of the inradius
+  Real u;  // sinκ² of the inradius
   bool beyond = false;
 };
 

@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
-
 #include "compiler/base/diagnostic.h"
+
+#include <catch2/catch.hpp>
 
 namespace orbc {
 namespace {

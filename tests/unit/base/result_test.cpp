@@ -1,3 +1,5 @@
+#include "compiler/base/result.h"
+
 #include <catch2/catch.hpp>
 #include <memory>
 
@@ -5,7 +7,6 @@
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/base/rational.h"
-#include "compiler/base/result.h"
 
 namespace orbc {
 namespace {

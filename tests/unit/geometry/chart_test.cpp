@@ -1,6 +1,7 @@
+#include "compiler/geometry/chart.h"
+
 #include <catch2/catch.hpp>
 
-#include "compiler/geometry/chart.h"
 #include "tests/unit/geometry/random_geometry.h"
 
 namespace orbc::geometry {

@@ -1,6 +1,7 @@
+#include "compiler/geometry/isometry.h"
+
 #include <catch2/catch.hpp>
 
-#include "compiler/geometry/isometry.h"
 #include "tests/unit/geometry/random_geometry.h"
 
 namespace orbc::geometry {
@@ -20,7 +21,8 @@ TEST_CASE("isometries keep distances", "[geometry]") {
       const double far = Random::reach(space) / 2;
       const Isometry map = random.isometry(space, far);
       const Point p = random.point(space, far), q = random.point(space, far), mp = map * p, mq = map * q;
-      CHECK(std::fabs(distance(space, mp, mq) - distance(space, p, q)) < 64 * kEps * (stretch(space, mp) + stretch(space, mq)) * (space == Space::hyperbolic ? stretch(space, map * Point()) : 1));
+      CHECK(std::fabs(distance(space, mp, mq) - distance(space, p, q)) <
+            64 * kEps * (stretch(space, mp) + stretch(space, mq)) * (space == Space::hyperbolic ? stretch(space, map * Point()) : 1));
       CHECK(testing::off_surface(space, mp) < 8 * kEps);
     }
 }
@@ -38,7 +40,8 @@ TEST_CASE("the map is its Möbius formula on the disk chart and its matrix on am
       const Complex expected = (map.a * z + map.b) / denominator, got = Complex(image.x, image.y) / (1 + image.w);
       if (std::abs(denominator) > 0.05) CHECK(std::abs(got - expected) < 1e-12 * (1 + std::norm(expected)));
       const Ambient by_matrix = matrix(map) * p;
-      CHECK(std::fabs(by_matrix.w - image.w) + std::fabs(by_matrix.x - image.x) + std::fabs(by_matrix.y - image.y) < 1e-13 * stretch(space, image) * stretch(space, p));
+      CHECK(std::fabs(by_matrix.w - image.w) + std::fabs(by_matrix.x - image.x) + std::fabs(by_matrix.y - image.y) <
+            1e-13 * stretch(space, image) * stretch(space, p));
     }
 }
 
@@ -118,9 +121,11 @@ TEST_CASE("translations move the origin without turning, also next to the antipo
       CHECK(distance(space, map * Point(), p) < 4 * kEps * stretch(space, p));
       // The axis goes through the origin and P: its direction at the origin is carried to its direction at P.
       const double rho = std::hypot(p.x, p.y);
-      const Tangent start(0, p.x / rho, p.y / rho), end = direction_along(space, Point(), start, distance(space, Point(), p)), got = map * start;
+      const Tangent start(0, p.x / rho, p.y / rho), end = direction_along(space, Point(), start, distance(space, Point(), p)),
+                                                    got = map * start;
       CHECK(std::fabs(got.w - end.w) + std::fabs(got.x - end.x) + std::fabs(got.y - end.y) < 16 * kEps * stretch(space, p));
-      CHECK(difference(map, translation_by(space, start.x * distance(space, Point(), p), start.y * distance(space, Point(), p))) < 16 * kEps * stretch(space, p));
+      CHECK(difference(map, translation_by(space, start.x * distance(space, Point(), p), start.y * distance(space, Point(), p))) <
+            16 * kEps * stretch(space, p));
     }
   for (const double gap : {1e-1, 1e-4, 1e-8, 1e-12, 1e-15}) {
     const Point p = {-std::cos(gap), std::sin(gap) * 0.6, std::sin(gap) * -0.8};

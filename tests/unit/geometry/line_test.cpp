@@ -1,6 +1,7 @@
+#include "compiler/geometry/line.h"
+
 #include <catch2/catch.hpp>
 
-#include "compiler/geometry/line.h"
 #include "tests/unit/geometry/random_geometry.h"
 
 namespace orbc::geometry {
@@ -22,7 +23,8 @@ TEST_CASE("a line runs through its points and has its left where a left-hander e
       // Left is the direction turned by +90° in the frame carried from the origin.
       const double phi = random.angle(), s = random.uniform(0.01, 1.5);
       const Isometry room_from_local = translation_to(space, p);
-      const Tangent v = room_from_local * Tangent(0, std::cos(phi), std::sin(phi)), left = room_from_local * Tangent(0, -std::sin(phi), std::cos(phi));
+      const Tangent v = room_from_local * Tangent(0, std::cos(phi), std::sin(phi)),
+                    left = room_from_local * Tangent(0, -std::sin(phi), std::cos(phi));
       const Line along = line_along(space, p, v);
       CHECK(signed_distance(space, along, point_along(space, p, left, s)) == Approx(s).epsilon(1e-10));
       CHECK(signed_distance(space, along, point_along(space, p, left, -s)) == Approx(-s).epsilon(1e-10));

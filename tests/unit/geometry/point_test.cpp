@@ -1,6 +1,7 @@
+#include "compiler/geometry/point.h"
+
 #include <catch2/catch.hpp>
 
-#include "compiler/geometry/point.h"
 #include "tests/unit/geometry/random_geometry.h"
 
 namespace orbc::geometry {
@@ -41,7 +42,8 @@ TEST_CASE("small distances keep their leading digits", "[geometry]") {
   // Farther out the difference of coordinates carries only ulp(sinh r)/s.
   const Point p = point_from_log(Space::hyperbolic, {2, 1});
   const Tangent v = normalised_tangent(Space::hyperbolic, p, {0, 0.3, -1});
-  for (const double s : {1e-3, 1e-6, 1e-9}) CHECK(std::fabs(distance(Space::hyperbolic, p, point_along(Space::hyperbolic, p, v, s)) - s) < 16 * kEps * p.w);
+  for (const double s : {1e-3, 1e-6, 1e-9})
+    CHECK(std::fabs(distance(Space::hyperbolic, p, point_along(Space::hyperbolic, p, v, s)) - s) < 16 * kEps * p.w);
 }
 
 TEST_CASE("antipodes of the sphere are π apart", "[geometry]") {

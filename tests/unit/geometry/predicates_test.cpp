@@ -1,8 +1,9 @@
+#include "compiler/geometry/predicates.h"
+
 #include <boost/multiprecision/cpp_int.hpp>
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "compiler/geometry/predicates.h"
 #include "tests/unit/geometry/random_geometry.h"
 
 namespace orbc::geometry {
@@ -37,7 +38,8 @@ TEST_CASE("side_of is the sign of the exact determinant, also for points a few u
       const double far = space == Space::hyperbolic ? 15 : Random::reach(space);
       const Point p = random.point(space, far), q = random.point(space, far);
       const Ambient between = random.uniform(-1, 2) * p + random.uniform(-1, 2) * q;
-      const Ambient x{nudged(between.w, static_cast<int>(random.uniform(-3, 3))), nudged(between.x, static_cast<int>(random.uniform(-3, 3))), between.y};
+      const Ambient x{nudged(between.w, static_cast<int>(random.uniform(-3, 3))),
+                      nudged(between.x, static_cast<int>(random.uniform(-3, 3))), between.y};
       const int expected = exact_determinant(p, q, x).sign();
       REQUIRE(static_cast<int>(side_of(p, q, x)) == expected);
       REQUIRE(static_cast<int>(side_of(q, p, x)) == -expected);

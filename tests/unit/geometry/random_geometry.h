@@ -50,6 +50,8 @@ inline double off_surface(Space space, const Point& p) {
 }
 
 /// e^r: what one ulp of a far hyperbolic coordinate is worth.
-inline double stretch(Space space, const Point& p) { return space == Space::hyperbolic ? p.w + std::hypot(p.x, p.y) : 1 + std::hypot(p.x, p.y); }
+inline double stretch(Space space, const Point& p) {
+  return space == Space::hyperbolic ? p.w + std::hypot(p.x, p.y) : 1 + std::hypot(p.x, p.y);
+}
 
 }  // namespace orbc::geometry::testing

@@ -1,7 +1,8 @@
+#include "compiler/geometry/space.h"
+
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "compiler/geometry/space.h"
 #include "tests/unit/geometry/random_geometry.h"
 
 namespace orbc::geometry {

@@ -14,7 +14,8 @@ notation::Orbifold random_orbifold(Random& random, int most, double largest) {
   const int n = 3 + static_cast<int>(random.uniform(0, most - 2));
   std::vector<Order> orders;
   for (int i = 0; i < n; ++i)
-    orders.emplace_back(random.uniform(0, 1) < 0.5 ? 2 + static_cast<int>(random.uniform(0, 5)) : static_cast<int>(std::exp(random.uniform(std::log(2.0), std::log(largest)))));
+    orders.emplace_back(random.uniform(0, 1) < 0.5 ? 2 + static_cast<int>(random.uniform(0, 5))
+                                                   : static_cast<int>(std::exp(random.uniform(std::log(2.0), std::log(largest)))));
   return orbifold_of(orders);
 }
 
@@ -33,7 +34,17 @@ void check_relations(const Room& room, double precision) {
 }
 
 TEST_CASE("group relations close to 1e-12", "[room]") {
-  for (const std::vector<Order>& corners : {std::vector<Order>{2, 3, 7}, {2, 3, 5}, {3, 3, 3}, {2, 4, 4}, {2, 3, 6}, {2, 2, 2, 2}, {2, 2, 2, 2, 2}, {2, 3, 2, 3}, {5, 5}, {3, 3, 3, 3, 3, 3}, {2, 2, 9}}) {
+  for (const std::vector<Order>& corners : {std::vector<Order>{2, 3, 7},
+                                            {2, 3, 5},
+                                            {3, 3, 3},
+                                            {2, 4, 4},
+                                            {2, 3, 6},
+                                            {2, 2, 2, 2},
+                                            {2, 2, 2, 2, 2},
+                                            {2, 3, 2, 3},
+                                            {5, 5},
+                                            {3, 3, 3, 3, 3, 3},
+                                            {2, 2, 9}}) {
     check_relations(made(orbifold_of(corners)), 1e-12);
     check_relations(made(orbifold_of(corners), shape_of(scene::ShapeKind::paper)), 1e-12);
   }
@@ -50,7 +61,8 @@ TEST_CASE("random orbifolds up to 40 corners are realised with certificates", "[
     const double size = room.space == Space::hyperbolic ? std::cosh(room.circumradius) : 1;
     CHECK(room.certificate.closure_residual < 8e-16 * size * size);
     CHECK(room.certificate.side_residual < 8e-16 * size * size);
-    for (const Wall& wall : room.walls) CHECK(geometry::signed_distance(room.space, wall.line, Point()) == Approx(room.inradius).epsilon(1e-13 * size));
+    for (const Wall& wall : room.walls)
+      CHECK(geometry::signed_distance(room.space, wall.line, Point()) == Approx(room.inradius).epsilon(1e-13 * size));
   }
 }
 
@@ -130,7 +142,8 @@ TEST_CASE("tangential rooms keep the symmetry of their corners", "[room]") {
       for (std::size_t i = 0; i < n && symmetric; ++i) symmetric = corners[i] == corners[(i + period) % n];
       if (!symmetric) continue;
       const Isometry turn = geometry::rotation(room.space, 2 * std::numbers::pi * static_cast<double>(period) / static_cast<double>(n));
-      for (std::size_t i = 0; i < n; ++i) CHECK(geometry::distance(room.space, turn * room.corners[i].at, room.corners[(i + period) % n].at) < 1e-13);
+      for (std::size_t i = 0; i < n; ++i)
+        CHECK(geometry::distance(room.space, turn * room.corners[i].at, room.corners[(i + period) % n].at) < 1e-13);
     }
   }
 }
@@ -167,12 +180,14 @@ TEST_CASE("given lengths are met and the rest is solved", "[room]") {
     scene::Shape shape = shape_of(scene::ShapeKind::lengths);
     std::vector<int> walls;
     for (std::size_t j = 0; j < n; ++j) walls.push_back(static_cast<int>(j) + 1);
-    while (walls.size() > n - 3) walls.erase(walls.begin() + static_cast<std::ptrdiff_t>(random.uniform(0, static_cast<double>(walls.size()))));
+    while (walls.size() > n - 3)
+      walls.erase(walls.begin() + static_cast<std::ptrdiff_t>(random.uniform(0, static_cast<double>(walls.size()))));
     for (const int wall : walls) shape.lengths[wall] = model.walls[static_cast<std::size_t>(wall - 1)].length;
     const Room room = made(orbifold, shape);
     check_room(room);
     // Rounded lengths are amplified by the size of the room.
-    for (std::size_t j = 0; j < n; ++j) CHECK(room.walls[j].length == Approx(model.walls[j].length).margin(1e-13 * std::pow(std::cosh(model.circumradius), 3)));
+    for (std::size_t j = 0; j < n; ++j)
+      CHECK(room.walls[j].length == Approx(model.walls[j].length).margin(1e-13 * std::pow(std::cosh(model.circumradius), 3)));
     for (const int wall : walls) CHECK(room.walls[static_cast<std::size_t>(wall - 1)].length == Approx(shape.lengths[wall]).epsilon(1e-15));
   }
 }
@@ -226,8 +241,10 @@ TEST_CASE("the certificate notices a room that was tampered with", "[room]") {
   CHECK(is_granted(good, certify(good)));
   for (int fault = 0; fault < 6; ++fault) {
     Room bad = good;
-    if (fault == 0) bad.walls[1].line = geometry::normalised_line(bad.space, {bad.walls[1].line.w + 1e-9, bad.walls[1].line.x, bad.walls[1].line.y});
-    if (fault == 1) bad.corners[2].at = geometry::point_from_log(bad.space, geometry::log_from_point(bad.space, bad.corners[2].at) * 1.000000001);
+    if (fault == 0)
+      bad.walls[1].line = geometry::normalised_line(bad.space, {bad.walls[1].line.w + 1e-9, bad.walls[1].line.x, bad.walls[1].line.y});
+    if (fault == 1)
+      bad.corners[2].at = geometry::point_from_log(bad.space, geometry::log_from_point(bad.space, bad.corners[2].at) * 1.000000001);
     if (fault == 2) bad.walls[0].length += 1e-9;
     if (fault == 3) bad.outline[1] = geometry::point_from_log(bad.space, geometry::log_from_point(bad.space, bad.outline[1]) * 1.000000001);
     if (fault == 4) std::reverse(bad.outline.begin(), bad.outline.end());

@@ -62,7 +62,9 @@ inline void check_room(const Room& room) {
   CHECK(room.walls.size() == (n == 0 ? 1 : n));
   CHECK(room.outline.size() == room.outline_wall.size());
   // One ulp of a far hyperbolic coordinate is worth e^(2r).
-  const double size = room.space == Space::hyperbolic ? std::cosh(room.circumradius) : room.space == Space::euclidean ? room.circumradius : 1;
+  const double size = room.space == Space::hyperbolic  ? std::cosh(room.circumradius)
+                      : room.space == Space::euclidean ? room.circumradius
+                                                       : 1;
   const double e = 64 * 0x1p-52 * size * (room.space == Space::hyperbolic ? size : 1);
   for (std::size_t i = 0; i < n; ++i) {
     const Wall &wall = room.walls[i], &before = room.walls[(i + n - 1) % n];
@@ -74,7 +76,8 @@ inline void check_room(const Room& room) {
     CHECK(std::fabs(geometry::distance(room.space, p, q) - wall.length) < e);
     CHECK(std::fabs(geometry::distance(room.space, point_on_wall(room, static_cast<int>(i), wall.length), q)) < e);
     CHECK(std::fabs(geometry::distance(room.space, point_on_wall(room, static_cast<int>(i), 0), p)) < e);
-    CHECK(std::fabs(geometry::value_at(wall.line, geometry::point_along(room.space, p, wall.along, wall.length / 3))) < e * (1 + std::exp(wall.length)));
+    CHECK(std::fabs(geometry::value_at(wall.line, geometry::point_along(room.space, p, wall.along, wall.length / 3))) <
+          e * (1 + std::exp(wall.length)));
   }
   if (n > 0) {
     CHECK(std::fabs(room.corners[0].at.y) < 1e-15);

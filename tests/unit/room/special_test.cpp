@@ -36,7 +36,8 @@ TEST_CASE("two mirrors of the sphere are a lune with its corners at ±x", "[room
     CHECK(room.corners[1].at.x == -1);
     CHECK(room.outline.size() == 4);
     CHECK(geometry::contains(room.outline, Point()) == geometry::Containment::inside);
-    CHECK(geometry::distance(Space::spherical, point_on_wall(room, 0, kPi / 2), geometry::point_from_log(Space::spherical, {0, kPi / (2 * k)})) < 1e-15);
+    CHECK(geometry::distance(Space::spherical, point_on_wall(room, 0, kPi / 2),
+                             geometry::point_from_log(Space::spherical, {0, kPi / (2 * k)})) < 1e-15);
   }
 }
 
@@ -79,7 +80,8 @@ TEST_CASE("rectangles have the wanted aspect, and their largest circle the wante
 
 TEST_CASE("Euclidean rooms scale with their inradius, tiny and huge", "[room]") {
   for (const double scale : {1e-9, 1e-3, 1.0, 12.5, 1e9})
-    for (const std::vector<Order>& corners : {std::vector<Order>{3, 3, 3}, {4, 2, 4}, {6, 3, 2}, {2, 2, 2, 2}, {Order(3, 2), Order(3, 2), 3, 3}}) {
+    for (const std::vector<Order>& corners :
+         {std::vector<Order>{3, 3, 3}, {4, 2, 4}, {6, 3, 2}, {2, 2, 2, 2}, {Order(3, 2), Order(3, 2), 3, 3}}) {
       scene::Shape shape;
       shape.scale = scale;
       const Room room = made(orbifold_of(corners), shape);
@@ -150,7 +152,8 @@ TEST_CASE("rooms too wide to be drawn are summarised all the same", "[room]") {
   REQUIRE(summary->sides.size() == 40);
   // Wall 38 lies between the last two cuts: quad *22k₃k₄ at corners 39 and 40 (orders 40 and 41), pentagon *2222k at corner 38 (order 39).
   const double c = std::cosh(1.4), s = std::sinh(1.4), c38 = std::cos(kPi / 39), c39 = std::cos(kPi / 40), c40 = std::cos(kPi / 41);
-  const double pentagon = std::asinh((c + c38 * c) / (s * std::sin(kPi / 39))), quad = std::asinh((c40 + c39 * c) / (std::sin(kPi / 40) * s));
+  const double pentagon = std::asinh((c + c38 * c) / (s * std::sin(kPi / 39))),
+               quad = std::asinh((c40 + c39 * c) / (std::sin(kPi / 40) * s));
   CHECK(summary->sides[37] == Approx(pentagon + quad).epsilon(1e-14));
   CHECK(summary->sides[38] == Approx(std::acosh((c + c39 * c40) / (std::sin(kPi / 40) * std::sin(kPi / 41)))).epsilon(1e-14));
   CHECK(summarise(orbifold_of({2, 3, 7}))->certified);
