@@ -140,7 +140,12 @@ Mesh surface_of(const Field& field, const Vector3& low, const Vector3& high, dou
 
 Mesh simplified(const Mesh& mesh, std::size_t triangles, const char* name) {
   auto done = orbc::mesh::decimate(mesh, {.triangles = triangles, .max_error = 0});
-  const auto found = orbc::mesh::examine(done.mesh);
+  auto found = orbc::mesh::examine(done.mesh);
+  for (std::size_t less = 500; found.crossings > 0 && less <= 2000; less += 500) {
+    std::printf("%s: %zu triangles cross\n", name, found.crossings);
+    done = orbc::mesh::decimate(mesh, {.triangles = triangles - less, .max_error = 0});
+    found = orbc::mesh::examine(done.mesh);
+  }
   for (auto& p : done.mesh.positions) p.z -= found.lowest.z;
   std::printf("%-16s %7zu -> %6zu triangles, error %.2e, %s, Euler %d, %zu bad edges, %zu crossings, box %.3f x %.3f x %.3f\n", name, mesh.triangles.size(),
               done.mesh.triangles.size(), done.error, found.closed ? "closed" : "OPEN", found.euler, found.bad_edges, found.crossings,
