@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "compiler/base/check.h"
@@ -199,30 +200,29 @@ std::optional<GrowthSeries> growth_series(const Orbifold& orbifold, int max_degr
 std::vector<Integer> copies_per_length(const Orbifold& orbifold, int max_length) {
   ORBC_CHECK(max_length, >=, 0);
   const Space space = space_of(orbifold);
-  if (orbifold.strip) {
-    std::vector<Integer> copies(static_cast<std::size_t>(max_length) + 1, 2);
-    copies[0] = 1;
-    return copies;
-  }
   const std::vector<int> orders = orders_of(orbifold);
   if (space == Space::spherical) return finite_series(orders, static_cast<std::size_t>(std::min(max_length, *longest_length(orbifold))) + 1);
-  // W·D = 1 + t.
+  // W·D = N. Long lists take D and N of the rational function, if it is short; others Steinberg's series and 1 + t.
   const std::size_t size = static_cast<std::size_t>(max_length) + 1;
-  const std::vector<std::int64_t> d = steinberg_series(orders, size);
+  GrowthSeries quotient{{1, 1}, {}};
+  if (std::optional<GrowthSeries> series = growth_series(orbifold, std::min(max_length / 2, 1000))) {
+    quotient = *std::move(series);
+  } else {
+    for (const std::int64_t d : steinberg_series(orders, size)) quotient.denominator.emplace_back(d);
+  }
   std::vector<Integer> copies(size);
   for (std::size_t n = 0; n < size; ++n) {
-    Integer sum = n <= 1 ? 1 : 0;
-    for (std::size_t j = 1; j <= n; ++j)
-      if (d[j] != 0) sum -= d[j] * copies[n - j];
-    copies[n] = std::move(sum);
+    Integer count = n < quotient.numerator.size() ? quotient.numerator[n] : Integer(0);
+    for (std::size_t j = 1; j <= n && j < quotient.denominator.size(); ++j)
+      if (quotient.denominator[j] != 0) count -= quotient.denominator[j] * copies[n - j];
+    copies[n] = std::move(count);
   }
   return copies;
 }
 
 Integer copies_up_to(const Orbifold& orbifold, int length) {
-  Integer sum = 0;
-  for (const Integer& count : copies_per_length(orbifold, length)) sum += count;
-  return sum;
+  const std::vector<Integer> copies = copies_per_length(orbifold, length);
+  return std::accumulate(copies.begin(), copies.end(), Integer(0));
 }
 
 std::optional<double> growth_rate(const Orbifold& orbifold) {

@@ -20,7 +20,7 @@ struct GrowthSeries {
 [[nodiscard]] std::optional<GrowthSeries> growth_series(const Orbifold& orbifold, int max_degree = 4096);
 
 /// The numbers of copies at word lengths 0 … max_length; finite groups end with their longest element, without zeros after it.
-/// Exact: any length; the work grows with max_length².
+/// Exact: any length. The work grows with max_length (times the degree of the series, at most max_length).
 [[nodiscard]] std::vector<Integer> copies_per_length(const Orbifold& orbifold, int max_length);
 
 /// The number of copies with words of at most `length` walls.

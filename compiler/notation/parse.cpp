@@ -54,7 +54,7 @@ constexpr char32_t kInfinity = U'\u221E';
 
 class Reader {
  public:
-  Reader(std::string_view text, const ParseOptions& options) : text_(text), options_(options), characters_(characters_of(text)) {
+  Reader(std::string_view text, const ParseOptions& options) : text_(text), options_(options), characters_(characters_of(text.substr(0, kMaxBytes))) {
     if (!options_.span.source) options_.span = {std::make_shared<SourceText>(SourceText{"notation", std::string(text.substr(0, kMaxBytes))}), 1, 1, 1};
     else skip_quote();
   }

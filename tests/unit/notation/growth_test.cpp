@@ -126,6 +126,12 @@ TEST_CASE("rooms with forty corners of forty orders have their series", "[notati
   CHECK(copies_per_length(o, 2) == std::vector<Integer>{1, 40, 40 * 39 - 1});
 }
 
+TEST_CASE("long lists are counted as well", "[notation]") {
+  CHECK(copies_up_to(read("*333"), 5000) == 1 + 3 * Integer(5000) * 5001 / 2);
+  CHECK(copies_per_length(read("*22222"), 1000)[1000] == 3 * copies_per_length(read("*22222"), 999)[999] - copies_per_length(read("*22222"), 998)[998]);
+  CHECK(copies_up_to(read("**"), 1000000) == 2000001);
+}
+
 TEST_CASE("huge orders are counted as well", "[notation]") {
   CHECK(copies_per_length(read("*23(1000000)"), 20) == copies_per_length(read("*23(100)"), 20));
   CHECK_FALSE(growth_series(read("*23(1000000)")).has_value());
