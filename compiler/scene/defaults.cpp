@@ -1,5 +1,9 @@
 #include "compiler/scene/defaults.h"
 
+#include "compiler/notation/euler.h"
+#include "compiler/notation/growth.h"
+#include "compiler/scene/check.h"
+
 #include <algorithm>
 
 namespace orbc::scene {
@@ -35,9 +39,18 @@ Frame default_frame() {
   return frame;
 }
 
+int default_max_bounces(const notation::Orbifold& orbifold) {
+  constexpr int kMost = 12, kCopies = 200;
+  if (!notation::is_orbifold(orbifold) || curvature_sign(orbifold) >= 0) return kMost;
+  int bounces = 1;
+  while (bounces < kMost && notation::copies_up_to(orbifold, bounces + 1) <= kCopies) ++bounces;
+  return bounces;
+}
+
 Scene default_scene(const notation::Orbifold& orbifold) {
   Scene scene;
   scene.orbifold = orbifold;
+  scene.cover.max_bounces = default_max_bounces(orbifold);
   scene.room.floor = default_floor();
   scene.room.ceiling = default_ceiling();
   for (int i = 1; i <= wall_count(orbifold); ++i) scene.room.walls.push_back(default_wall(i, orbifold.strip));

@@ -69,7 +69,7 @@ Scene read_root(Reader& reader, const Node& root) {
   scene.ambient = fields.color("ambient", scene.ambient);
   scene.exposure = fields.number("exposure", scene.exposure, {0, 1e6, true});
   scene.camera = read_camera(reader, part("camera"), facts);
-  scene.cover = read_cover(reader, part("cover"));
+  scene.cover = read_cover(reader, part("cover"), scene.cover);
   return scene;
 }
 

@@ -94,8 +94,7 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
   return camera;
 }
 
-CoverSpec read_cover(Reader& reader, const Node& node) {
-  CoverSpec cover;
+CoverSpec read_cover(Reader& reader, const Node& node, CoverSpec cover) {
   const Fields fields(reader, node, "the cover", {"max_bounces", "min_weight", "min_pixels", "background"});
   cover.max_bounces = fields.integer("max_bounces", cover.max_bounces, 0, 1000);
   cover.min_weight = fields.number("min_weight", cover.min_weight, kUnit);

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "compiler/notation/parse.h"
+#include "compiler/scene/defaults.h"
+
 namespace orbc::scene {
 namespace {
 
@@ -45,7 +48,7 @@ camera:
   fov: 80deg
   size: [800, 600]
 
-cover: {{max_bounces: 12, background: "#20242a"}}    # how far the mirrors are followed, and what is seen beyond
+cover: {{max_bounces: {bounces}, background: "#20242a"}}    # how far the mirrors are followed, and what is seen beyond
 )";
 
 std::string quoted(std::string_view text) {
@@ -92,6 +95,8 @@ std::string aligned(const std::string& text) {
 std::string starter_scene(std::string_view notation, int walls, double inradius) {
   using fmt::arg;
   const double r = inradius > 0 ? std::clamp(inradius, 1e-3, 1.0) : 0.5;
+  const auto orbifold = notation::parse(notation, {{}, true});
+  const int bounces = orbifold ? default_max_bounces(*orbifold) : 12;
   const bool real = notation.find_first_of("/.") != std::string_view::npos;
   return aligned(fmt::format(fmt::runtime(kText), arg("notation", quoted(notation)), arg("about", about(notation)), arg("allow", real ? "\nallow_non_orbifold: true" : ""),
                      arg("height", shown(1.5 * r)), arg("cell", shown(0.25 * r)), arg("frame", shown(0.06 * r)), arg("wall_hint", wall_hint(notation, walls)),
@@ -99,7 +104,7 @@ std::string starter_scene(std::string_view notation, int walls, double inradius)
                      arg("knot_radius", shown(0.18 * r)), arg("knot_tube", shown(0.05 * r)), arg("knot_at", shown(0.25 * r)),
                      arg("sphere_radius", shown(0.14 * r)), arg("sphere_at", shown(0.5 * r)), arg("mesh_size", shown(0.4 * r)),
                      arg("lamp_z", shown(1.3 * r)), arg("lamp_radius", shown(0.07 * r)), arg("power", shown(20 * r * r)),
-                     arg("eye_at", shown(0.62 * r)), arg("eye_z", shown(0.7 * r))));
+                     arg("eye_at", shown(0.62 * r)), arg("eye_z", shown(0.7 * r)), arg("bounces", bounces)));
 }
 
 }  // namespace orbc::scene
