@@ -70,7 +70,8 @@ const std::atomic<bool>& interrupted() { return g_interrupted; }
 void install_interrupt_handler() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), told like any other
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe and a file too large are errors of write(), told like any other
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace orbc::cli

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""The command line as users and scripts meet it: exit codes, messages, pipes, full disks, Ctrl-C."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+from helpers import BIN, ROOT, check, finish, folder, run
+
+ORBC = BIN / 'orbc'
+OCTANT = ROOT / 'examples/octant/scene.yaml'
+
+
+def orbc(*words, **options):
+    return run([ORBC, *words], **options)
+
+
+def text(done):
+    return done.stdout.decode() + done.stderr.decode()
+
+
+with folder() as name:
+    where = pathlib.Path(name)
+
+    # help, version, man page, completions
+    help_text = orbc('--help').stdout.decode()
+    for command in ('info', 'enumerate', 'new', 'check', 'compile', 'render', 'trace', 'verify'):
+        check(command in help_text, f'--help names {command}')
+        done = orbc(command, '--help')
+        check(done.returncode == 0 and 'Examples' in text(done), f'{command} --help has examples')
+    check(orbc('--version').stdout.startswith(b'orbc '), '--version')
+    check(orbc().returncode == 0 and b'orbc new' in orbc().stdout, 'without a command: help')
+    check(b'.TH ORBC 1' in orbc('man').stdout, 'the man page comes from the same options')
+    check(run(['bash', '-n', '/dev/stdin'], input=orbc('completion', 'bash').stdout).returncode == 0, 'bash completion parses')
+    check(b'complete -c orbc' in orbc('completion', 'fish').stdout and b'#compdef orbc' in orbc('completion', 'zsh').stdout, 'zsh and fish completion')
+
+    # usage errors are 2, on standard error
+    for words in (['inof'], ['info'], ['compile', OCTANT], ['compile', OCTANT, '-o', where / 'x.foo'], ['compile', OCTANT, '-o', '-'], ['render', OCTANT, '-o', 'x.png', '--size', '0x5'],
+                  ['compile', OCTANT, '-o', where / 'x.glb', '--max-memory', 'much'], ['info', '*237', '--shape', 'round']):
+        done = orbc(*words)
+        check(done.returncode == 2 and done.stderr and not done.stdout, f'usage: {" ".join(str(w) for w in words[:3])}')
+
+    # what is known of an orbifold
+    facts = json.loads(orbc('info', '*237', '--json', '--max-length', '37').stdout)
+    check(facts['chi'] == '-1/84' and facts['space'] == 'hyperbolic' and facts['copies_per_length'][37] == 2818 and abs(facts['growth_rate'] - 1.17628081825991750) < 1e-15, 'info *237')
+    keys = 'notation canonical space chi area group_order growth_rate copies_per_length sides angles inradius moduli'.split()
+    check(all(k in facts for k in keys), 'info has all its keys')
+    facts = json.loads(orbc('info', '*235', '--json').stdout)
+    check(facts['group_order'] == 120 and facts['growth_rate'] is None, 'info *235')
+    facts = json.loads(orbc('info', '*22222', '--json', '--shape', 'paper', '--cut', '1.4').stdout)
+    check(abs(sorted(facts['sides'])[0] - 0.7265551893071904) < 1e-12, 'info --shape paper')
+    check(len(json.loads(orbc('info', '*' + '2' * 40, '--json').stdout)['sides']) == 40, 'forty corners')
+    check(orbc('info', '*23').returncode == 1 and b'notation.bad-orbifold' in orbc('info', '*23').stderr, 'a bad orbifold is refused with the reason')
+    check(b'^' in orbc('info', '22*').stderr, 'with a caret')
+    done = orbc('enumerate', '--corners', '3', '--max-order', '8')
+    check(done.stdout.count(b'*') == 84 and b'euclidean: *236 *244 *333' in done.stdout, 'enumerate is the paper\'s table')
+    check(len(json.loads(orbc('enumerate', '--corners', '4', '--max-order', '3', '--json').stdout)) > 3, 'enumerate --json')
+
+    # new, check
+    for notation in ('*', '**', '*22', '*33', '*222', '*235', '*333', '*2222', '*2323', '*22222', '*237', '*23456789(10)(11)'):
+        scene = where / 'new.yaml'
+        scene.write_bytes(orbc('new', notation).stdout)
+        done = orbc('check', scene, '--json')
+        check(done.returncode == 0 and json.loads(done.stdout)['ok'], f'new {notation} makes a scene that is all right {text(done)[:200] if done.returncode else ""}')
+    done = orbc('check', '-', input=b'orbc: 1\norbifold: "*2222"\nrom: {}\n')
+    check(done.returncode == 1 and b'<stdin>:3:1' in done.stderr and b'room' in done.stderr, 'check reads a pipe and points at the mistake')
+    bad = where / 'bad.yaml'
+    bad.write_text('orbc: 1\norbifold: "*2222"\nobjects:\n  - mesh: nowhere.obj\ncamera: {at: {polar: [9, 0deg]}}\n')
+    done = orbc('compile', bad, '-o', where / 'bad.glb')
+    check(done.returncode == 1 and b'mesh.missing-file' in done.stderr and not (where / 'bad.glb').exists(), 'a wrong scene writes nothing')
+    check(orbc('compile', where / 'none.yaml', '-o', where / 'x.glb').returncode == 1, 'a missing scene')
+
+    # machine errors are 3 and leave nothing behind
+    check(orbc('compile', OCTANT, '-o', where / 'no/such/folder.glb').returncode == 3, 'no such folder')
+    check(orbc('compile', OCTANT, '-o', '/dev/full').returncode == 2, 'no ending')
+    done = orbc('compile', OCTANT, '-f', 'glb', '-o', '/dev/full')
+    check(done.returncode == 3 and b'space' in done.stderr, f'a full disk is told: {done.stderr.decode()[:100]}')
+    before = sorted(os.listdir(where))
+    done = run(['bash', '-c', f'ulimit -f 100; exec {ORBC} compile {OCTANT} -o {where}/large.glb'])
+    check(done.returncode == 3 and sorted(os.listdir(where)) == before, 'a file that grows too large leaves nothing')
+    done = run(['bash', '-c', f'ulimit -v 150000; exec {ORBC} compile {OCTANT} --max-bounces 40 -o {where}/large.glb'])
+    check(done.returncode == 3 and sorted(os.listdir(where)) == before, f'too little memory is told: {done.stderr.decode()[:100]}')
+    done = orbc('compile', OCTANT, '--max-memory', '1MiB', '-o', where / 'x.glb')
+    check(done.returncode == 1 and b'max_bounces' in done.stderr, 'the planner refuses, and names what fits')
+    done = run(['bash', '-c', f'{ORBC} compile {OCTANT} -f pov -o - | head -c 10 >/dev/null; exit ${{PIPESTATUS[0]}}'])
+    check(done.returncode == 3, 'a closed pipe is an error')
+
+    # quiet, pipes, progress
+    done = orbc('compile', OCTANT, '-o', where / 'x.glb', '--quiet')
+    check(done.returncode == 0 and not done.stdout and not done.stderr, '--quiet says nothing')
+    done = orbc('compile', OCTANT, '-o', where / 'x.glb')
+    check(b'\r' not in done.stderr and b'17 copies' in done.stderr, 'no progress bar in a pipe')
+    report = json.loads(orbc('compile', OCTANT, '-o', where / 'x.glb', '--quiet', '--report', '-').stdout)
+    check(report['copies'] == 17 and report['triangles'] > 1000 and report['error_bound_px'] <= 0.25, 'the report')
+    check(json.loads(orbc('compile', OCTANT, '--plan').stdout)['copies'] == 17, 'the plan')
+
+    # Ctrl-C leaves no half file
+    before = sorted(os.listdir(where))
+    process = subprocess.Popen([ORBC, 'trace', OCTANT, '-o', where / 'long.png', '--samples', '400'], stderr=subprocess.PIPE)
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=20)
+    check(process.returncode == 130 and sorted(os.listdir(where)) == before, 'Ctrl-C stops and leaves nothing')
+finish()
