@@ -58,6 +58,26 @@ with folder() as where:
     done = run([SCRIPT, path('many.glb'), '-o', path('many.png'), '--samples', '4', '--threads', '1'])
     check(done.returncode == 0, 'two thousand copies, four samples ' + done.stderr.decode())
 
+    # World coordinates in Blender are those of the product: z up, nothing turned. (Camera and meshes could be turned together unseen.)
+    sample('squares', 'glb', where)
+    code = f'''
+import sys, numpy, bpy
+numpy.bool = bool
+bpy.ops.wm.read_factory_settings(use_empty=True)
+import addon_utils; addon_utils.enable('io_scene_gltf2')
+bpy.ops.import_scene.gltf(filepath={path('squares.glb')!r})
+thing = [o for o in bpy.context.scene.objects if o.type == 'MESH'][0]
+points = [thing.matrix_world @ v.co for v in thing.data.vertices]
+print('CORNERS', sorted(tuple(float(c) for c in p) for p in points)[0], sorted(tuple(float(c) for c in p) for p in points)[-1])
+camera = [o for o in bpy.context.scene.objects if o.type == 'CAMERA'][0]
+print('CAMERA', *[round(c, 6) + 0.0 for c in camera.matrix_world.translation])
+'''
+    code = "import sys; sys.path.append('/usr/lib/python3/dist-packages')" + code
+    done = run(['blender', '-b', '--factory-startup', '-noaudio', '--python-exit-code', '3', '--python-expr', code])
+    said = done.stdout.decode()
+    check('CORNERS (2.0, -0.25, 0.0) (3.0, 1.0, 1.5)' in said, 'world coordinates in Blender are those of the product ' + said[-300:] * ('CORNERS (2' not in said))
+    check('CAMERA 0.0 0.0 0.5' in said, 'and so is the place of the camera')
+
     def refused(what, code, words, command, **options):
         done = run(command, **options)
         check(done.returncode == code and words in done.stderr.decode() and len(done.stderr) < 2000,
