@@ -1,6 +1,6 @@
-// A word w is reduced and stays so with s exactly when α_s is none of the positive roots that w turns negative; of these only the minimal ones
-// matter. Appending s maps this set T to {α_s} ∪ sT. For ShortLex also s·α_t with t < s is barred: a later wall that uses it up would show that
-// the word could have begun with t instead (Brink–Howlett 1993; Casselman 2002).
+// A word w is reduced and stays so with s exactly when α_s is none of the positive roots that w turns negative; of these only the minimal
+// ones matter. Appending s maps this set T to {α_s} ∪ sT. For ShortLex also s·α_t with t < s is barred: a later wall that uses it up would
+// show that the word could have begun with t instead (Brink–Howlett 1993; Casselman 2002).
 #include "compiler/cover/automaton.h"
 
 #include <algorithm>
@@ -131,7 +131,8 @@ bool is_normal_form(const Automaton& automaton, const Word& word) {
 }
 
 Word times(const Automaton& automaton, const Word& word, int wall) {
-  // Going back through the word, `root` is the simple root of `wall` seen from there. Where it is simple, its wall could stand there instead.
+  // Going back through the word, `root` is the simple root of `wall` seen from there. Where it is simple, its wall could stand there
+  // instead.
   const MinimalRoots& roots = automaton.roots();
   Root root = wall;
   std::size_t best = word.size();

@@ -17,7 +17,9 @@ class CornerAutomaton {
  public:
   struct State {
     std::int32_t last = -1;
-    std::int32_t barred_left = 0, barred_right = 0;  // for ShortLex: roots that would make the word longer or lexicographically later than another of its element
+    std::int32_t barred_left = 0,
+                 barred_right =
+                     0;  // for ShortLex: roots that would make the word longer or lexicographically later than another of its element
     std::int32_t turned_left = 0, turned_right = 0;  // roots that the element makes negative
   };
   explicit CornerAutomaton(const MinimalRoots& roots);
@@ -35,12 +37,16 @@ class CornerAutomaton {
     after.last = wall;
     if (side.left >= 0) {
       const bool same = side.left == state.last;  // we stay in that corner, which is the right one of the last wall
-      after.barred_left = same ? state.barred_right + 1 : side.left < wall || has_root(state, side.left, state.barred_left, state.barred_right) ? 2 : 1;
+      after.barred_left = same                                                                                    ? state.barred_right + 1
+                          : side.left < wall || has_root(state, side.left, state.barred_left, state.barred_right) ? 2
+                                                                                                                  : 1;
       after.turned_left = same ? state.turned_right + 1 : has_root(state, side.left, state.turned_left, state.turned_right) ? 2 : 1;
     }
     if (side.right >= 0) {
       const bool same = side.right == state.last;
-      after.barred_right = same ? state.barred_left + 1 : side.right < wall || has_root(state, side.right, state.barred_left, state.barred_right) ? 2 : 1;
+      after.barred_right = same                                                                                      ? state.barred_left + 1
+                           : side.right < wall || has_root(state, side.right, state.barred_left, state.barred_right) ? 2
+                                                                                                                     : 1;
       after.turned_right = same ? state.turned_left + 1 : has_root(state, side.right, state.turned_left, state.turned_right) ? 2 : 1;
     }
     return after;
@@ -85,7 +91,9 @@ class TableAutomaton {
   [[nodiscard]] int states() const { return static_cast<int>(descents_.size()); }
   [[nodiscard]] static State start() { return 0; }
   [[nodiscard]] bool allows(State state, int wall) const { return next(state, wall) >= 0; }
-  [[nodiscard]] State next(State state, int wall) const { return next_[static_cast<std::size_t>(state) * static_cast<std::size_t>(walls_) + static_cast<std::size_t>(wall)]; }
+  [[nodiscard]] State next(State state, int wall) const {
+    return next_[static_cast<std::size_t>(state) * static_cast<std::size_t>(walls_) + static_cast<std::size_t>(wall)];
+  }
   [[nodiscard]] std::uint64_t descents(State state) const { return descents_[static_cast<std::size_t>(state)]; }
 
  private:
@@ -117,7 +125,8 @@ class Automaton {
 /// The normal form of (normal form `word`) · s_wall, in one pass over the word; its length is one more or one less.
 /// Source: du Cloux, Un algorithme de forme normale pour les groupes de Coxeter (1990): one letter goes in or out.
 [[nodiscard]] Word times(const Automaton& automaton, const Word& word, int wall);
-/// The normal form of the element of any word, however long or redundant: two paths of a beam lead to the same copy exactly when these agree.
+/// The normal form of the element of any word, however long or redundant: two paths of a beam lead to the same copy exactly when these
+/// agree.
 [[nodiscard]] Word normal_form(const Automaton& automaton, const Word& word);
 /// Bit i: |g·s_i| < |g| for the element g of a normal form: the copy across wall i is nearer (first 64 walls).
 [[nodiscard]] std::uint64_t descents(const Automaton& automaton, const Word& word);

@@ -39,9 +39,12 @@ bool walk(const Machine& machine, int max_length, Enter&& enter, Visit&& visit) 
   std::vector<std::uint8_t> word;
   std::vector<int> untried{0};
   switch (walk_of(visit(Element{}))) {
-    case Walk::deeper: break;
-    case Walk::back: return true;
-    case Walk::stop: return false;
+    case Walk::deeper:
+      break;
+    case Walk::back:
+      return true;
+    case Walk::stop:
+      return false;
   }
   if (max_length <= 0) return true;
   for (;;) {
@@ -69,14 +72,18 @@ bool walk(const Machine& machine, int max_length, Enter&& enter, Visit&& visit) 
 
 }  // namespace detail
 
-/// Visits every element of the reflection group whose word has at most `max_length` (≤ automaton.max_length()) walls, each exactly once, words before their
-/// continuations, smaller walls first. visit(const Element&) → Walk or bool.
-/// Makes:  false when the visitor stopped the stream.
-/// Memory: a few bytes per letter of the longest word, whatever the count.
+/// Visits every element of the reflection group whose word has at most `max_length` (≤ automaton.max_length()) walls, each exactly once,
+/// words before their continuations, smaller walls first. visit(const Element&) → Walk or bool. Makes:  false when the visitor stopped the
+/// stream. Memory: a few bytes per letter of the longest word, whatever the count.
 template <class Visitor>
 bool enumerate(const Automaton& automaton, int max_length, Visitor&& visit) {
   ORBC_CHECK(max_length, <=, automaton.max_length());
-  return std::visit([&](const auto& machine) { return detail::walk(machine, max_length, [](std::size_t, int) {}, visit); }, automaton.machine());
+  return std::visit(
+      [&](const auto& machine) {
+        return detail::walk(
+            machine, max_length, [](std::size_t, int) {}, visit);
+      },
+      automaton.machine());
 }
 
 /// The same with the isometry of each copy: visit(const Element&, const geometry::Isometry& cover_from_room) → Walk or bool.

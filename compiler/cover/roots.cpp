@@ -1,9 +1,9 @@
 // Positive roots of a corner of order k, by angle: position p has the coefficients sin((k−1−p)θ)/sinθ and sin(pθ)/sinθ, θ = π/k. The
 // reflection in the first wall takes p to k − p, in the second to k − 2 − p: no number is needed.
-// A third wall keeps such a root minimal only in triangles, and only near the simple roots (the product with its simple root is concave in p).
-// From these seeds the roots of three walls follow by rising: s·β is minimal exactly when −1 < B(β, α_s) < 0 (Brink–Howlett).
-// Where |B| < 1 the two reflections generate a finite dihedral group, so B = cos(jπ/m) with m at most the largest order K: the values are 0,
-// at least sin(π/2K), at most −1, or at least −cos(π/K). A bounded error much smaller than these gaps decides exactly.
+// A third wall keeps such a root minimal only in triangles, and only near the simple roots (the product with its simple root is concave in
+// p). From these seeds the roots of three walls follow by rising: s·β is minimal exactly when −1 < B(β, α_s) < 0 (Brink–Howlett). Where |B|
+// < 1 the two reflections generate a finite dihedral group, so B = cos(jπ/m) with m at most the largest order K: the values are 0, at least
+// sin(π/2K), at most −1, or at least −cos(π/K). A bounded error much smaller than these gaps decides exactly.
 #include "compiler/cover/roots.h"
 
 #include <algorithm>
@@ -37,7 +37,8 @@ MinimalRoots::MinimalRoots(const notation::Orbifold& orbifold) {
   ORBC_CHECK(corner_count, !=, 1);
   if (corner_count == 2) ORBC_CHECK(orders[0], ==, orders[1]);
   if (corner_count == 2) corners_.push_back({0, 1, orders[0], 0});
-  for (int i = 0; corner_count > 2 && i < corner_count; ++i) corners_.push_back({(i + walls_ - 1) % walls_, i, orders[static_cast<std::size_t>(i)], 0});
+  for (int i = 0; corner_count > 2 && i < corner_count; ++i)
+    corners_.push_back({(i + walls_ - 1) % walls_, i, orders[static_cast<std::size_t>(i)], 0});
   Root offset = walls_;
   for (Corner& corner : corners_) {
     corner.offset = offset;
@@ -61,7 +62,8 @@ int MinimalRoots::order(int wall, int other) const {
 }
 
 int MinimalRoots::corner_of(Root root) const {
-  const auto after = std::upper_bound(corners_.begin(), corners_.end(), root, [](Root r, const Corner& corner) { return r < corner.offset; });
+  const auto after =
+      std::upper_bound(corners_.begin(), corners_.end(), root, [](Root r, const Corner& corner) { return r < corner.offset; });
   // Corners of order 2 have no interior root and share their offset with the next; the last of equal ones is right.
   return static_cast<int>(after - corners_.begin()) - 1;
 }
@@ -173,7 +175,8 @@ class MinimalRoots::TripleFinder {
     return image;
   }
 
-  // The roots of corners that a third wall may raise, from both ends of each corner until the first that it does not: B is convex in between.
+  // The roots of corners that a third wall may raise, from both ends of each corner until the first that it does not: B is convex in
+  // between.
   std::map<int, std::vector<Root>> seeds_by_depth() const {
     std::map<int, std::vector<Root>> seeds;
     for (int corner = 0; corner < 3; ++corner) {

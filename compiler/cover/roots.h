@@ -57,8 +57,8 @@ class MinimalRoots {
   int walls_ = 0;
   std::vector<Corner> corners_;
   Root first_triple_ = 0;
-  std::vector<Triple> triples_;                    // roots that involve all three walls of a triangle
-  std::map<std::pair<Root, int>, Root> raised_;    // (dihedral root, third wall) → its image, where that is minimal
+  std::vector<Triple> triples_;                  // roots that involve all three walls of a triangle
+  std::map<std::pair<Root, int>, Root> raised_;  // (dihedral root, third wall) → its image, where that is minimal
 };
 
 }  // namespace orbc::cover

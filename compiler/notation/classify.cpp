@@ -31,10 +31,12 @@ Result<Space> classify(const Orbifold& orbifold, const SourceSpan& span) {
   if (orbifold.strip) return Space::euclidean;
   const std::vector<Rational>& corners = orbifold.corners;
   if (corners.size() > static_cast<std::size_t>(kMaxCorners))
-    return make_error("notation.too-many-corners", fmt::format("{} corners are more than the {} that are supported", corners.size(), kMaxCorners), "", span);
+    return make_error("notation.too-many-corners",
+                      fmt::format("{} corners are more than the {} that are supported", corners.size(), kMaxCorners), "", span);
   for (const Rational& corner : corners)
     if (corner <= 1 || corner > kMaxOrder)
-      return make_error("notation.order-out-of-range", fmt::format("a corner of order {} is not between 1 and {}", to_string(corner), kMaxOrder), "", span);
+      return make_error("notation.order-out-of-range",
+                        fmt::format("a corner of order {} is not between 1 and {}", to_string(corner), kMaxOrder), "", span);
   if (corners.size() == 1)
     return bad(orbifold, "closes in no space of constant curvature: a single mirror cannot meet itself in a corner",
                fmt::format("one mirror alone is *; two mirrors with two equal corners are {}", pair_of(corners[0])), span);

@@ -10,7 +10,9 @@ namespace {
 
 // "4*2", "22x", "∞∞": gyration points ascending, boundaries as small as rotation makes them.
 std::string key_of(const ConwaySymbol& symbol) {
-  const auto number = [](int order) { return order == 0 ? std::string("∞") : order < 10 ? std::to_string(order) : fmt::format("({})", order); };
+  const auto number = [](int order) {
+    return order == 0 ? std::string("∞") : order < 10 ? std::to_string(order) : fmt::format("({})", order);
+  };
   std::string key(static_cast<std::size_t>(symbol.handles), 'o');
   std::vector<int> gyrations = symbol.gyrations;
   std::sort(gyrations.begin(), gyrations.end());
@@ -29,30 +31,14 @@ std::string key_of(const ConwaySymbol& symbol) {
 
 const std::map<std::string, std::string>& fixed_names() {
   static const std::map<std::string, std::string> names = {
-      {"o", "the wallpaper group p1"},
-      {"2222", "the wallpaper group p2"},
-      {"333", "the wallpaper group p3"},
-      {"244", "the wallpaper group p4"},
-      {"236", "the wallpaper group p6"},
-      {"**", "the wallpaper group pm"},
-      {"xx", "the wallpaper group pg"},
-      {"*x", "the wallpaper group cm"},
-      {"22*", "the wallpaper group pmg"},
-      {"22x", "the wallpaper group pgg"},
-      {"2*22", "the wallpaper group cmm"},
-      {"3*3", "the wallpaper group p31m"},
-      {"4*2", "the wallpaper group p4g"},
-      {"233", "the chiral tetrahedral group"},
-      {"234", "the chiral octahedral group"},
-      {"235", "the chiral icosahedral group"},
-      {"3*2", "the pyritohedral group"},
-      {"x", "the group of the central inversion"},
-      {"∞∞", "the frieze group p1"},
-      {"∞x", "the frieze group p11g"},
-      {"∞*", "the frieze group p11m"},
-      {"*∞∞", "the frieze group p1m1"},
-      {"22∞", "the frieze group p2"},
-      {"2*∞", "the frieze group p2mg"},
+      {"o", "the wallpaper group p1"},         {"2222", "the wallpaper group p2"},      {"333", "the wallpaper group p3"},
+      {"244", "the wallpaper group p4"},       {"236", "the wallpaper group p6"},       {"**", "the wallpaper group pm"},
+      {"xx", "the wallpaper group pg"},        {"*x", "the wallpaper group cm"},        {"22*", "the wallpaper group pmg"},
+      {"22x", "the wallpaper group pgg"},      {"2*22", "the wallpaper group cmm"},     {"3*3", "the wallpaper group p31m"},
+      {"4*2", "the wallpaper group p4g"},      {"233", "the chiral tetrahedral group"}, {"234", "the chiral octahedral group"},
+      {"235", "the chiral icosahedral group"}, {"3*2", "the pyritohedral group"},       {"x", "the group of the central inversion"},
+      {"∞∞", "the frieze group p1"},           {"∞x", "the frieze group p11g"},         {"∞*", "the frieze group p11m"},
+      {"*∞∞", "the frieze group p1m1"},        {"22∞", "the frieze group p2"},          {"2*∞", "the frieze group p2mg"},
       {"*22∞", "the frieze group p2mm"},
   };
   return names;
@@ -91,7 +77,8 @@ std::string features(const ConwaySymbol& symbol) {
   counted(static_cast<std::size_t>(symbol.handles), "a wonder-ring (o)", "wonder-rings (o)");
   if (!symbol.gyrations.empty()) {
     std::string orders;
-    for (const int order : symbol.gyrations) orders += (orders.empty() ? "" : ", ") + (order == 0 ? std::string("∞") : std::to_string(order));
+    for (const int order : symbol.gyrations)
+      orders += (orders.empty() ? "" : ", ") + (order == 0 ? std::string("∞") : std::to_string(order));
     parts.push_back((symbol.gyrations.size() == 1 ? "a gyration point of order " : "gyration points of orders ") + orders);
   }
   if (symbol.boundaries.size() > 1) counted(symbol.boundaries.size(), "", "mirror boundaries");

@@ -14,7 +14,8 @@ struct ConwaySymbol {
 };
 
 /// The usual name of its group: "the wallpaper group cmm", "the chiral icosahedral group", or "" where there is none.
-/// Source: Conway, Huson, The orbifold notation for two-dimensional groups (2002); Conway, Burgiel, Goodman-Strauss, The symmetries of things (2008).
+/// Source: Conway, Huson, The orbifold notation for two-dimensional groups (2002); Conway, Burgiel, Goodman-Strauss, The symmetries of
+/// things (2008).
 [[nodiscard]] std::string usual_name(const ConwaySymbol& symbol);
 
 /// What keeps it from being kaleidoscopic: "it has gyration points of order 2, 2 and a cross-cap".

@@ -1,5 +1,5 @@
-// Corner lists up to rotation are necklaces; they are listed lexicographically with constant memory by the recursion of Fredricksen, Kessler
-// and Maiorana (Ruskey, Savage, Wang, Generating necklaces, 1992). Those that are also smallest among their reflections are kept.
+// Corner lists up to rotation are necklaces; they are listed lexicographically with constant memory by the recursion of Fredricksen,
+// Kessler and Maiorana (Ruskey, Savage, Wang, Generating necklaces, 1992). Those that are also smallest among their reflections are kept.
 #include "compiler/notation/enumerate.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,10 @@ using geometry::Space;
 class Necklaces {
  public:
   Necklaces(int corners, int max_order, const OrbifoldVisitor& visit)
-      : orders_(static_cast<std::size_t>(corners) + 1, 2), corners_(static_cast<std::size_t>(corners)), max_order_(max_order), visit_(visit) {}
+      : orders_(static_cast<std::size_t>(corners) + 1, 2),
+        corners_(static_cast<std::size_t>(corners)),
+        max_order_(max_order),
+        visit_(visit) {}
 
   // Visits the hyperbolic ones in lexicographic order; false when the visitor ended it.
   bool run() { return extend(1, 1); }
@@ -71,7 +74,9 @@ std::vector<std::vector<int>> not_hyperbolic(int corners, int max_order, Space s
   if (corners == 3 && sphere) lists.insert(lists.end(), {{2, 3, 3}, {2, 3, 4}, {2, 3, 5}});
   if (corners == 3 && !sphere) lists.insert(lists.end(), {{2, 3, 6}, {2, 4, 4}, {3, 3, 3}});
   if (corners == 4 && !sphere) lists.push_back({2, 2, 2, 2});
-  const auto too_large = [&](const std::vector<int>& list) { return !list.empty() && *std::max_element(list.begin(), list.end()) > max_order; };
+  const auto too_large = [&](const std::vector<int>& list) {
+    return !list.empty() && *std::max_element(list.begin(), list.end()) > max_order;
+  };
   lists.erase(std::remove_if(lists.begin(), lists.end(), too_large), lists.end());
   return lists;
 }
@@ -79,9 +84,11 @@ std::vector<std::vector<int>> not_hyperbolic(int corners, int max_order, Space s
 Diagnostics range_errors(int corners, int max_order) {
   Diagnostics errors;
   if (corners < 1 || corners > kMaxCorners)
-    errors.push_back(make_error("notation.enumerate-out-of-range", fmt::format("orbifolds with {} corners cannot be listed", corners), fmt::format("1 to {} corners", kMaxCorners)));
+    errors.push_back(make_error("notation.enumerate-out-of-range", fmt::format("orbifolds with {} corners cannot be listed", corners),
+                                fmt::format("1 to {} corners", kMaxCorners)));
   if (max_order < 2 || max_order > kMaxOrder)
-    errors.push_back(make_error("notation.enumerate-out-of-range", fmt::format("{} is no largest order of corners", max_order), fmt::format("2 to {}", kMaxOrder)));
+    errors.push_back(make_error("notation.enumerate-out-of-range", fmt::format("{} is no largest order of corners", max_order),
+                                fmt::format("2 to {}", kMaxOrder)));
   return errors;
 }
 

@@ -183,7 +183,8 @@ std::optional<GrowthSeries> growth_series(const Orbifold& orbifold, int max_degr
     Series corner = common;
     multiply_by_one_minus(corner, 1);
     divide_by_one_minus(corner, k);
-    for (std::size_t i = static_cast<std::size_t>(k); i < common.size(); ++i) series.denominator[i] += count * corner[i - static_cast<std::size_t>(k)];
+    for (std::size_t i = static_cast<std::size_t>(k); i < common.size(); ++i)
+      series.denominator[i] += count * corner[i - static_cast<std::size_t>(k)];
   }
 
   std::vector<int> common_factors(factors.begin(), factors.end());
@@ -201,7 +202,8 @@ std::vector<Integer> copies_per_length(const Orbifold& orbifold, int max_length)
   ORBC_CHECK(max_length, >=, 0);
   const Space space = space_of(orbifold);
   const std::vector<int> orders = orders_of(orbifold);
-  if (space == Space::spherical) return finite_series(orders, static_cast<std::size_t>(std::min(max_length, *longest_length(orbifold))) + 1);
+  if (space == Space::spherical)
+    return finite_series(orders, static_cast<std::size_t>(std::min(max_length, *longest_length(orbifold))) + 1);
   // W·D = N. Long lists take D and N of the rational function, if it is short; others Steinberg's series and 1 + t.
   const std::size_t size = static_cast<std::size_t>(max_length) + 1;
   GrowthSeries quotient{{1, 1}, {}};
@@ -229,9 +231,9 @@ std::optional<double> growth_rate(const Orbifold& orbifold) {
   const Space space = space_of(orbifold);
   if (space == Space::spherical) return std::nullopt;
   if (space == Space::euclidean) return 1;
-  // D falls from 1 at 0 through one zero in (0, 1): the reciprocal roots are a Salem number, its inverse and points of the unit circle (Parry,
-  // Growth series of Coxeter groups and Salem numbers, 1993). No polygon group grows more slowly than *237, so the zero lies below 0.86.
-  // Extended precision, so that the rounding to double is the only error that shows.
+  // D falls from 1 at 0 through one zero in (0, 1): the reciprocal roots are a Salem number, its inverse and points of the unit circle
+  // (Parry, Growth series of Coxeter groups and Salem numbers, 1993). No polygon group grows more slowly than *237, so the zero lies below
+  // 0.86. Extended precision, so that the rounding to double is the only error that shows.
   std::map<int, int> counts;
   for (const int k : orders_of(orbifold)) ++counts[k];
   const long double walls = static_cast<long double>(orbifold.corners.size());

@@ -7,7 +7,8 @@
 
 namespace orbc::notation {
 
-/// W(t) = Σ (copies at word length l)·tˡ = numerator/denominator, coefficients low order first, without common factors, both starting with 1.
+/// W(t) = Σ (copies at word length l)·tˡ = numerator/denominator, coefficients low order first, without common factors, both starting
+/// with 1.
 struct GrowthSeries {
   std::vector<Integer> numerator, denominator;
 };
@@ -15,7 +16,8 @@ struct GrowthSeries {
 /// The growth series of the reflection group. In all functions here: a good orbifold with integer corners.
 /// Makes:  nothing when the degree would exceed `max_degree` (orders with many different divisors); copies_per_length still works then.
 /// Exact:  integers.
-/// Source: Steinberg, Endomorphisms of linear algebraic groups (1968): 1/W(1/t) = Σ (−1)^|T| / W_T(t) over the finite subgroups T of the walls;
+/// Source: Steinberg, Endomorphisms of linear algebraic groups (1968): 1/W(1/t) = Σ (−1)^|T| / W_T(t) over the finite subgroups T of the
+/// walls;
 ///         Solomon, The orders of the finite Chevalley groups (1966), for finite groups.
 [[nodiscard]] std::optional<GrowthSeries> growth_series(const Orbifold& orbifold, int max_degree = 4096);
 

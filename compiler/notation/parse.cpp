@@ -15,16 +15,16 @@
 namespace orbc::notation {
 namespace {
 
-constexpr std::size_t kMaxBytes = 8192;    // 256 corners, each a fraction of seven-digit numbers in parentheses
-constexpr std::size_t kMaxDigits = 7;      // as many as kMaxOrder has
+constexpr std::size_t kMaxBytes = 8192;  // 256 corners, each a fraction of seven-digit numbers in parentheses
+constexpr std::size_t kMaxDigits = 7;    // as many as kMaxOrder has
 constexpr std::size_t kQuotedCharacters = 40;
 
 enum class Kind { star, order, cross_cap, wonder_ring };
 
 struct Token {
   Kind kind;
-  std::size_t begin = 0, length = 1;       // in characters
-  std::optional<Rational> value;           // orders only; nothing: ∞
+  std::size_t begin = 0, length = 1;  // in characters
+  std::optional<Rational> value;      // orders only; nothing: ∞
 };
 
 // The code points of UTF-8 text; bytes that are none stand for themselves above the range of Unicode, so that nothing matches them.
@@ -54,17 +54,23 @@ constexpr char32_t kInfinity = U'\u221E';
 
 class Reader {
  public:
-  Reader(std::string_view text, const ParseOptions& options) : text_(text), options_(options), characters_(characters_of(text.substr(0, kMaxBytes))) {
-    if (!options_.span.source) options_.span = {std::make_shared<SourceText>(SourceText{"notation", std::string(text.substr(0, kMaxBytes))}), 1, 1, 1};
+  Reader(std::string_view text, const ParseOptions& options)
+      : text_(text), options_(options), characters_(characters_of(text.substr(0, kMaxBytes))) {
+    if (!options_.span.source)
+      options_.span = {std::make_shared<SourceText>(SourceText{"notation", std::string(text.substr(0, kMaxBytes))}), 1, 1, 1};
     else skip_quote();
   }
 
   Result<Parsed> read() {
-    if (text_.size() > kMaxBytes) return error("notation.too-long", fmt::format("{} bytes are too long for a notation", text_.size()), 0, 1);
+    if (text_.size() > kMaxBytes)
+      return error("notation.too-long", fmt::format("{} bytes are too long for a notation", text_.size()), 0, 1);
     if (!scan()) return errors_;
-    if (tokens_.empty()) return error("notation.empty", "the orbifold notation is empty", 0, 1, "a room with mirrors is * followed by its corners: *22222");
+    if (tokens_.empty())
+      return error("notation.empty", "the orbifold notation is empty", 0, 1, "a room with mirrors is * followed by its corners: *22222");
     if (tokens_.size() == 2 && tokens_[0].kind == Kind::star && tokens_[1].kind == Kind::star) return Parsed{{{}, true}, {}};
-    const bool kaleidoscopic = tokens_[0].kind == Kind::star && std::all_of(tokens_.begin() + 1, tokens_.end(), [](const Token& t) { return t.kind == Kind::order && t.value; });
+    const bool kaleidoscopic = tokens_[0].kind == Kind::star && std::all_of(tokens_.begin() + 1, tokens_.end(), [](const Token& t) {
+                                 return t.kind == Kind::order && t.value;
+                               });
     return kaleidoscopic ? orbifold() : refusal();
   }
 
@@ -90,14 +96,16 @@ class Reader {
   void skip_quote() {
     SourceSpan& span = options_.span;
     std::string_view rest = span.source->text;
-    for (std::size_t line = 1; line < span.line && !rest.empty(); ++line) rest.remove_prefix(std::min(rest.size(), rest.find('\n') == std::string_view::npos ? rest.size() : rest.find('\n') + 1));
+    for (std::size_t line = 1; line < span.line && !rest.empty(); ++line)
+      rest.remove_prefix(std::min(rest.size(), rest.find('\n') == std::string_view::npos ? rest.size() : rest.find('\n') + 1));
     const std::u32string line = characters_of(rest.substr(0, std::min(rest.find('\n'), kMaxBytes)));
     if (span.line == 0 || span.column == 0 || span.column > line.size()) return;
     const char32_t quote = line[span.column - 1];
     if ((quote == U'"' || quote == U'\'') && (characters_.empty() || characters_[0] != quote)) ++span.column;
   }
 
-  Diagnostic error(const std::string& code, const std::string& message, std::size_t begin, std::size_t length, const std::string& hint = {}) const {
+  Diagnostic error(const std::string& code, const std::string& message, std::size_t begin, std::size_t length,
+                   const std::string& hint = {}) const {
     return make_error(code, message, hint, place(begin, length));
   }
 
@@ -150,7 +158,8 @@ class Reader {
         continue;
       }
       if (c == U',') {
-        if (comma || tokens_.empty() || tokens_.back().kind != Kind::order) return unexpected(at, "a comma stands between two corners: *2,3,10");
+        if (comma || tokens_.empty() || tokens_.back().kind != Kind::order)
+          return unexpected(at, "a comma stands between two corners: *2,3,10");
         comma = true, ++at;
         continue;
       }
@@ -161,7 +170,9 @@ class Reader {
         if (!scan_order(at)) return false;
         continue;
       }
-      if (!is_star(c) && !is_cross(c) && !is_ring(c)) return unexpected(at, c == U'.' || c == U'/' ? "put real corners into parentheses: *(3/2)(12)(12), *(2.5)44" : "corners are digits, (10) or (3/2), as in *23(10) or *2 3 10");
+      if (!is_star(c) && !is_cross(c) && !is_ring(c))
+        return unexpected(at, c == U'.' || c == U'/' ? "put real corners into parentheses: *(3/2)(12)(12), *(2.5)44"
+                                                     : "corners are digits, (10) or (3/2), as in *23(10) or *2 3 10");
       tokens_.push_back({is_star(c) ? Kind::star : is_cross(c) ? Kind::cross_cap : Kind::wonder_ring, at, 1, {}});
       ++at;
     }
@@ -192,7 +203,9 @@ class Reader {
     else if (!scan_number(at, begin, value)) return false;
     if (parenthesis) {
       skip_blanks(at);
-      if (at >= characters_.size()) return fail(error("notation.unclosed-parenthesis", "this parenthesis is not closed", begin, 1, "write (10) for a corner of order 10"));
+      if (at >= characters_.size())
+        return fail(
+            error("notation.unclosed-parenthesis", "this parenthesis is not closed", begin, 1, "write (10) for a corner of order 10"));
       if (characters_[at] != U')') return unexpected(at, "a parenthesis holds one corner: (10), (3/2) or (2.5)");
       ++at;
     }
@@ -217,10 +230,12 @@ class Reader {
     }
     const auto significant = [](std::string s) { return s.erase(0, s.find_first_not_of('0')); };
     if (significant(digits).size() > kMaxDigits || (mark == U'/' ? significant(below) : below).size() > kMaxDigits)
-      return fail(error("notation.order-out-of-range", "this corner has too many digits", token, at - token, fmt::format("orders are at most {}", kMaxOrder)));
+      return fail(error("notation.order-out-of-range", "this corner has too many digits", token, at - token,
+                        fmt::format("orders are at most {}", kMaxOrder)));
     // A leading zero would make the number octal.
     const auto number = [&](const std::string& s) { return Integer(significant(s).empty() ? "0" : significant(s)); };
-    const Integer scale = mark == U'/' ? number(below) : boost::multiprecision::pow(Integer(10), static_cast<unsigned>(mark == U'.' ? below.size() : 0));
+    const Integer scale =
+        mark == U'/' ? number(below) : boost::multiprecision::pow(Integer(10), static_cast<unsigned>(mark == U'.' ? below.size() : 0));
     if (scale == 0) return fail(error("notation.order-out-of-range", "this corner divides by zero", token, at - token));
     Rational result(mark == U'.' ? Integer(number(digits) * scale + number(below)) : number(digits), scale);
     value = negative ? Rational(-result) : result;
@@ -241,13 +256,15 @@ class Reader {
       const Token& token = tokens_[i];
       const Rational& order = *token.value;
       if (order == 1)
-        parsed.notes.push_back(make_note("notation.corner-of-order-one", "a corner of order 1 is a straight angle and is left out", "", place(token.begin, token.length)));
-      else if (check_order(token))
-        parsed.orbifold.corners.push_back(order);
+        parsed.notes.push_back(make_note("notation.corner-of-order-one", "a corner of order 1 is a straight angle and is left out", "",
+                                         place(token.begin, token.length)));
+      else if (check_order(token)) parsed.orbifold.corners.push_back(order);
     }
     if (parsed.orbifold.corners.size() > static_cast<std::size_t>(kMaxCorners)) {
       const Token& first = tokens_[static_cast<std::size_t>(kMaxCorners) + 1];
-      fail(error("notation.too-many-corners", fmt::format("{} corners are more than the {} that are supported", parsed.orbifold.corners.size(), kMaxCorners), first.begin, first.length));
+      fail(error("notation.too-many-corners",
+                 fmt::format("{} corners are more than the {} that are supported", parsed.orbifold.corners.size(), kMaxCorners),
+                 first.begin, first.length));
     }
     if (!errors_.empty()) return errors_;
     if (Result<geometry::Space> space = classify(parsed.orbifold, whole()); !space) return std::move(space).error();
@@ -258,15 +275,18 @@ class Reader {
     const Rational& order = *token.value;
     const bool whole_number = denominator(order) == 1;
     if (order < 1) {
-      const std::string angle = order > 0 ? "its angle would be larger than a straight one" : "a corner has the angle π/k with k of at least 2";
-      return fail(error("notation.order-out-of-range", fmt::format("a corner cannot have order {}: {}", to_string(order), angle), token.begin, token.length,
-                        separated_ || order != 0 ? "" : "write 10 as (10) or separate all corners: *2 3 10"));
+      const std::string angle =
+          order > 0 ? "its angle would be larger than a straight one" : "a corner has the angle π/k with k of at least 2";
+      return fail(error("notation.order-out-of-range", fmt::format("a corner cannot have order {}: {}", to_string(order), angle),
+                        token.begin, token.length, separated_ || order != 0 ? "" : "write 10 as (10) or separate all corners: *2 3 10"));
     }
     if (order > kMaxOrder)
-      return fail(error("notation.order-out-of-range", fmt::format("order {} is larger than {}", to_string(order), kMaxOrder), token.begin, token.length));
+      return fail(error("notation.order-out-of-range", fmt::format("order {} is larger than {}", to_string(order), kMaxOrder), token.begin,
+                        token.length));
     if (!whole_number && !options_.allow_non_orbifold)
-      return fail(error("notation.non-orbifold-corner", fmt::format("order {} is no integer: the mirror images of this corner do not close", to_string(order)), token.begin, token.length,
-                        "rooms that are no orbifolds need allow_non_orbifold: true"));
+      return fail(error("notation.non-orbifold-corner",
+                        fmt::format("order {} is no integer: the mirror images of this corner do not close", to_string(order)), token.begin,
+                        token.length, "rooms that are no orbifolds need allow_non_orbifold: true"));
     return true;
   }
 
@@ -276,9 +296,11 @@ class Reader {
     const Token* culprit = nullptr;
     for (const Token& token : tokens_) {
       if (token.kind == Kind::order && token.value && (*token.value < 1 || denominator(*token.value) != 1 || *token.value > kMaxOrder))
-        return error("notation.order-out-of-range", fmt::format("a gyration point or corner cannot have order {}", to_string(*token.value)), token.begin, token.length);
+        return error("notation.order-out-of-range", fmt::format("a gyration point or corner cannot have order {}", to_string(*token.value)),
+                     token.begin, token.length);
       const int order = token.value ? static_cast<int>(numerator(*token.value)) : 0;
-      const bool late = token.kind == Kind::wonder_ring ? !symbol.gyrations.empty() || !symbol.boundaries.empty() || symbol.crosscaps > 0 : token.kind != Kind::cross_cap && symbol.crosscaps > 0;
+      const bool late = token.kind == Kind::wonder_ring ? !symbol.gyrations.empty() || !symbol.boundaries.empty() || symbol.crosscaps > 0
+                                                        : token.kind != Kind::cross_cap && symbol.crosscaps > 0;
       if (late) {
         unexpected(token.begin, "Conway's order is: o, gyration points, * with its corners, x");
         return errors_;
@@ -295,17 +317,20 @@ class Reader {
     std::string text(text_);
     if (characters_.size() > kQuotedCharacters) text = "this symbol";
     return error("notation.not-kaleidoscopic",
-                 fmt::format("{}{} is not kaleidoscopic: it has {}", text, name.empty() ? "" : " (" + name + ")", features(symbol)), culprit->begin, culprit->length, hint_for(symbol));
+                 fmt::format("{}{} is not kaleidoscopic: it has {}", text, name.empty() ? "" : " (" + name + ")", features(symbol)),
+                 culprit->begin, culprit->length, hint_for(symbol));
   }
 
   std::string hint_for(const ConwaySymbol& symbol) const {
-    if (symbol.handles == 0 && symbol.crosscaps == 0 && symbol.boundaries.empty() && std::count(symbol.gyrations.begin(), symbol.gyrations.end(), 0) == 0) {
+    if (symbol.handles == 0 && symbol.crosscaps == 0 && symbol.boundaries.empty() &&
+        std::count(symbol.gyrations.begin(), symbol.gyrations.end(), 0) == 0) {
       Orbifold mirrored;
       for (const int order : symbol.gyrations)
         if (order > 1) mirrored.corners.emplace_back(order);
       if (classify(mirrored)) return fmt::format("with mirrors it is {}", to_text(mirrored));
     }
-    if (symbol.gyrations.empty() && symbol.crosscaps == 0 && symbol.boundaries.size() == 1 && symbol.boundaries[0] == std::vector<int>{0, 0})
+    if (symbol.gyrations.empty() && symbol.crosscaps == 0 && symbol.boundaries.size() == 1 &&
+        symbol.boundaries[0] == std::vector<int>{0, 0})
       return "two parallel mirrors are written **";
     return "a room is closed by mirrors alone: * followed by its corners; other orbifolds are not supported yet";
   }

@@ -71,8 +71,11 @@ TEST_CASE("every triangle group lists each element once by its ShortLex form, wi
 }
 
 TEST_CASE("rooms of few and of many walls list each element once by its ShortLex form, with its descents", "[cover]") {
-  for (const char* text : {"*", "**", "*22", "*33", "*77", "*2222", "*2223", "*2232", "*2323", "*2332", "*3333", "*2354", "*4532", "*2525", "*22222", "*22223", "*32222", "*22333", "*23456",
-                           "*64253", "*222222", "*252423", "*333333", "*2222222", "*23456789(10)(11)"})
+  for (const char* text : {"*",       "**",      "*22",     "*33",      "*77",
+                           "*2222",   "*2223",   "*2232",   "*2323",    "*2332",
+                           "*3333",   "*2354",   "*4532",   "*2525",    "*22222",
+                           "*22223",  "*32222",  "*22333",  "*23456",   "*64253",
+                           "*222222", "*252423", "*333333", "*2222222", "*23456789(10)(11)"})
     check_against_matrices(orbifold(text), 12);
 }
 
@@ -82,7 +85,8 @@ TEST_CASE("counts equal the growth series at any depth", "[cover]") {
   CHECK(counts(orbifold("*666"), 15) == expected(orbifold("*666"), 15));
   CHECK(counts(orbifold("*666"), 15)[15] == 37239);
   CHECK(counts(orbifold("*22222"), 4) == std::vector<Integer>{1, 5, 15, 40, 105});
-  for (const char* text : {"*732", "*372", "*(40)32", "*3(1000000)2", "*245", "*2(20)(30)", "*345", "*(10)(10)(10)", "*333", "*244", "*632", "*2222", "**"}) {
+  for (const char* text :
+       {"*732", "*372", "*(40)32", "*3(1000000)2", "*245", "*2(20)(30)", "*345", "*(10)(10)(10)", "*333", "*244", "*632", "*2222", "**"}) {
     CAPTURE(text);
     CHECK(counts(orbifold(text), 24) == expected(orbifold(text), 24));
   }
@@ -104,9 +108,9 @@ TEST_CASE("a spherical room has as many copies as its group has elements", "[cov
   std::vector<notation::Orbifold> spherical;
   for (const int corners : {1, 2, 3}) {
     const bool done = notation::enumerate(corners, 40, [&](const notation::Orbifold& o, geometry::Space space) {
-      if (space == geometry::Space::spherical) spherical.push_back(o);
-      return space == geometry::Space::spherical;
-    }).value();
+                        if (space == geometry::Space::spherical) spherical.push_back(o);
+                        return space == geometry::Space::spherical;
+                      }).value();
     CHECK(done == (corners < 3));
   }
   CHECK(spherical.size() == 1 + 39 + 39 + 3);
@@ -140,7 +144,11 @@ TEST_CASE("the table and the computed automaton agree where both apply", "[cover
     const CornerAutomaton computed(roots);
     const auto list = [&](const auto& machine) {
       std::vector<std::pair<Word, std::uint64_t>> all;
-      detail::walk(machine, length, [](std::size_t, int) {}, [&](const Element& e) { return all.push_back({Word(e.word.begin(), e.word.end()), e.descents}), true; });
+      detail::walk(
+          machine, length, [](std::size_t, int) {},
+          [&](const Element& e) {
+            return all.push_back({Word(e.word.begin(), e.word.end()), e.descents}), true;
+          });
       return all;
     };
     CHECK(list(table) == list(computed));
@@ -161,7 +169,8 @@ TEST_CASE("minimal roots are as many as the literature says", "[cover]") {
 }
 
 TEST_CASE("the image of a minimal root comes back under the same wall", "[cover]") {
-  for (const char* text : {"*237", "*732", "*245", "*254", "*235", "*532", "*2(30)(40)", "*23(1000)", "*2323", "*77", "*22(100)", "*23456", "*666"}) {
+  for (const char* text :
+       {"*237", "*732", "*245", "*254", "*235", "*532", "*2(30)(40)", "*23(1000)", "*2323", "*77", "*22(100)", "*23456", "*666"}) {
     CAPTURE(text);
     const MinimalRoots roots(orbifold(text));
     bool involutive = true;

@@ -25,11 +25,14 @@ std::vector<Isometry> regular_reflections(Space space, int walls, double inradiu
   return reflections;
 }
 
-std::vector<Isometry> pentagon() { return regular_reflections(Space::hyperbolic, 5, std::atanh(std::sqrt(std::cos(2 * std::numbers::pi / 5)))); }
+std::vector<Isometry> pentagon() {
+  return regular_reflections(Space::hyperbolic, 5, std::atanh(std::sqrt(std::cos(2 * std::numbers::pi / 5))));
+}
 
 TEST_CASE("a stream visits a word before its continuations and smaller walls first", "[cover]") {
   std::vector<Word> words;
-  CHECK(enumerate(Automaton(orbifold("*222")), 3, [&](const Element& e) { return words.emplace_back(e.word.begin(), e.word.end()), true; }));
+  CHECK(
+      enumerate(Automaton(orbifold("*222")), 3, [&](const Element& e) { return words.emplace_back(e.word.begin(), e.word.end()), true; }));
   CHECK(words == std::vector<Word>{{}, {0}, {0, 1}, {0, 1, 2}, {0, 2}, {1}, {1, 2}, {2}});
 }
 
@@ -107,7 +110,8 @@ TEST_CASE("the walls that shorten a word face the room", "[cover]") {
 
 TEST_CASE("a thousand mirrors away the isometry is still one", "[cover]") {
   // The strip: the only words alternate, the copies march along the axis.
-  const std::vector<Isometry> reflections = {geometry::reflection(Space::euclidean, {1, -1, 0}), geometry::reflection(Space::euclidean, {1, 1, 0})};
+  const std::vector<Isometry> reflections = {geometry::reflection(Space::euclidean, {1, -1, 0}),
+                                             geometry::reflection(Space::euclidean, {1, 1, 0})};
   double worst = 0;
   std::size_t visited = 0;
   enumerate(Automaton(orbifold("**"), 2000), reflections, 2000, [&](const Element& e, const Isometry& cover_from_room) {

@@ -29,20 +29,27 @@ TEST_CASE("the Euler characteristic is exact", "[notation]") {
     CAPTURE(text);
     CHECK(euler_characteristic(read(text)) == chi);
   }
-  CHECK(euler_characteristic(read("*(1000000)(999999)(999998)")) == (Rational(1, 1000000) + Rational(1, 999999) + Rational(1, 999998)) / 2 - Rational(1, 2));
+  CHECK(euler_characteristic(read("*(1000000)(999999)(999998)")) ==
+        (Rational(1, 1000000) + Rational(1, 999999) + Rational(1, 999998)) / 2 - Rational(1, 2));
 }
 
 TEST_CASE("the sign of the Euler characteristic is the space", "[notation]") {
-  for (const char* text : {"*", "*22", "*(1000000)(1000000)", "*222", "*22(1000000)", "*233", "*234", "*235", "*532", "*(3/2)(3/2)", "*(3/2)(3/2)(3/2)"}) CHECK(*classify(read(text)) == Space::spherical);
-  for (const char* text : {"**", "*236", "*362", "*244", "*333", "*2222", "*(3/2)66", "*(3/2)(3/2)33"}) CHECK(*classify(read(text)) == Space::euclidean);
-  for (const char* text : {"*237", "*245", "*334", "*2223", "*22222", "*(1000000)(1000000)(1000000)", "*(3/2)(12)(12)", "*(2.5)(2.5)(2.5)(2.5)"}) CHECK(*classify(read(text)) == Space::hyperbolic);
+  for (const char* text :
+       {"*", "*22", "*(1000000)(1000000)", "*222", "*22(1000000)", "*233", "*234", "*235", "*532", "*(3/2)(3/2)", "*(3/2)(3/2)(3/2)"})
+    CHECK(*classify(read(text)) == Space::spherical);
+  for (const char* text : {"**", "*236", "*362", "*244", "*333", "*2222", "*(3/2)66", "*(3/2)(3/2)33"})
+    CHECK(*classify(read(text)) == Space::euclidean);
+  for (const char* text :
+       {"*237", "*245", "*334", "*2223", "*22222", "*(1000000)(1000000)(1000000)", "*(3/2)(12)(12)", "*(2.5)(2.5)(2.5)(2.5)"})
+    CHECK(*classify(read(text)) == Space::hyperbolic);
   // Between E² and its neighbours no float could decide.
   CHECK(*classify(read("*(2000001/1000000)(3)(6)")) == Space::hyperbolic);
   CHECK(*classify(read("*(1999999/1000000)(3)(6)")) == Space::spherical);
 }
 
 TEST_CASE("orbifolds that close in no space are bad", "[notation]") {
-  for (const Orbifold& o : {Orbifold{{3}, false}, Orbifold{{2, 3}, false}, Orbifold{{Rational(3, 2), 2}, false}, Orbifold{{Rational(21, 20), 10, 100}, false}}) {
+  for (const Orbifold& o : {Orbifold{{3}, false}, Orbifold{{2, 3}, false}, Orbifold{{Rational(3, 2), 2}, false},
+                            Orbifold{{Rational(21, 20), 10, 100}, false}}) {
     CAPTURE(to_text(o));
     const auto space = classify(o);
     REQUIRE_FALSE(space.has_value());
@@ -51,7 +58,8 @@ TEST_CASE("orbifolds that close in no space are bad", "[notation]") {
 }
 
 TEST_CASE("corners that are none are refused", "[notation]") {
-  for (const Rational& corner : {Rational(1), Rational(0), Rational(-2), Rational(1, 2), Rational(1000001)}) CHECK(classify({{corner, 2, 2}, false}).error().front().code == "notation.order-out-of-range");
+  for (const Rational& corner : {Rational(1), Rational(0), Rational(-2), Rational(1, 2), Rational(1000001)})
+    CHECK(classify({{corner, 2, 2}, false}).error().front().code == "notation.order-out-of-range");
   CHECK(classify({std::vector<Rational>(257, 2), false}).error().front().code == "notation.too-many-corners");
 }
 
@@ -68,10 +76,12 @@ TEST_CASE("the canonical form is the same for all rotations and reflections and 
     const Orbifold smallest = canonical(o);
     CHECK(canonical(smallest) == smallest);
     Orbifold turned = o;
-    std::rotate(turned.corners.begin(), turned.corners.begin() + static_cast<std::ptrdiff_t>(random() % o.corners.size()), turned.corners.end());
+    std::rotate(turned.corners.begin(), turned.corners.begin() + static_cast<std::ptrdiff_t>(random() % o.corners.size()),
+                turned.corners.end());
     if (random() % 2 == 0) std::reverse(turned.corners.begin(), turned.corners.end());
     CHECK(canonical(turned) == smallest);
-    CHECK_FALSE(std::lexicographical_compare(turned.corners.begin(), turned.corners.end(), smallest.corners.begin(), smallest.corners.end()));
+    CHECK_FALSE(
+        std::lexicographical_compare(turned.corners.begin(), turned.corners.end(), smallest.corners.begin(), smallest.corners.end()));
     CHECK(*classify(turned) == *classify(smallest));
   }
 }

@@ -19,13 +19,13 @@ Table table(int corners, int max_order) {
   Table t;
   Space before = Space::spherical;
   CHECK(enumerate(corners, max_order, [&](const Orbifold& o, Space space) {
-    CHECK(*classify(o) == space);
-    CHECK(canonical(o) == o);
-    CHECK(geometry::curvature(space) <= geometry::curvature(before));
-    before = space;
-    (space == Space::spherical ? t.spherical : space == Space::euclidean ? t.euclidean : t.hyperbolic).push_back(to_text(o));
-    return true;
-  }).value());
+          CHECK(*classify(o) == space);
+          CHECK(canonical(o) == o);
+          CHECK(geometry::curvature(space) <= geometry::curvature(before));
+          before = space;
+          (space == Space::spherical ? t.spherical : space == Space::euclidean ? t.euclidean : t.hyperbolic).push_back(to_text(o));
+          return true;
+        }).value());
   return t;
 }
 
@@ -39,7 +39,8 @@ TEST_CASE("the list reproduces the paper's Table 1", "[notation]") {
   const Table three = table(3, 8);
   CHECK(three.spherical == List{"*222", "*223", "*224", "*225", "*226", "*227", "*228", "*233", "*234", "*235"});
   CHECK(three.euclidean == List{"*236", "*244", "*333"});
-  CHECK(List(three.hyperbolic.begin(), three.hyperbolic.begin() + 9) == List{"*237", "*238", "*245", "*246", "*247", "*248", "*255", "*256", "*257"});
+  CHECK(List(three.hyperbolic.begin(), three.hyperbolic.begin() + 9) ==
+        List{"*237", "*238", "*245", "*246", "*247", "*248", "*255", "*256", "*257"});
   // *kₐk_bk_c with 2 ≤ kₐ ≤ k_b ≤ k_c ≤ 8: 84 in all.
   CHECK(three.hyperbolic.size() == 84 - 10 - 3);
   CHECK(three.hyperbolic.back() == "*888");
@@ -86,10 +87,10 @@ TEST_CASE("each class of corner lists is there exactly once", "[notation]") {
 TEST_CASE("hyperbolic ones come in lexicographic order", "[notation]") {
   std::vector<Rational> before;
   CHECK(enumerate(5, 5, [&](const Orbifold& o, Space) {
-    CHECK(std::lexicographical_compare(before.begin(), before.end(), o.corners.begin(), o.corners.end()));
-    before = o.corners;
-    return true;
-  }).value());
+          CHECK(std::lexicographical_compare(before.begin(), before.end(), o.corners.begin(), o.corners.end()));
+          before = o.corners;
+          return true;
+        }).value());
 }
 
 TEST_CASE("a list too long for any memory is a stream that can be ended", "[notation]") {

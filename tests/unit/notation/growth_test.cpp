@@ -59,7 +59,9 @@ TEST_CASE("the growth rate of *237 is Lehmer's number to the last bit", "[notati
 }
 
 TEST_CASE("finite groups have their orders and longest elements", "[notation]") {
-  const std::tuple<const char*, int, int> cases[] = {{"*", 2, 1}, {"*22", 4, 2}, {"*77", 14, 7}, {"*222", 8, 3}, {"*22(10)", 40, 11}, {"*2(10)2", 40, 11}, {"*332", 24, 6}, {"*432", 48, 9}, {"*352", 120, 15}};
+  const std::tuple<const char*, int, int> cases[] = {{"*", 2, 1},     {"*22", 4, 2},       {"*77", 14, 7},
+                                                     {"*222", 8, 3},  {"*22(10)", 40, 11}, {"*2(10)2", 40, 11},
+                                                     {"*332", 24, 6}, {"*432", 48, 9},     {"*352", 120, 15}};
   for (const auto& [text, order, longest] : cases) {
     CAPTURE(text);
     CHECK(*group_order(read(text)) == order);
@@ -78,13 +80,15 @@ TEST_CASE("finite groups have their orders and longest elements", "[notation]") 
 TEST_CASE("counts are those known from elsewhere", "[notation]") {
   CHECK(copies_per_length(read("*237"), 60)[37] == 2818);
   CHECK(copies_per_length(read("*666"), 15)[15] == 37239);
-  for (const auto& [length, copies] : {std::pair{0, 1}, {1, 6}, {2, 21}, {3, 61}, {4, 166}}) CHECK(copies_up_to(read("*22222"), length) == copies);
+  for (const auto& [length, copies] : {std::pair{0, 1}, {1, 6}, {2, 21}, {3, 61}, {4, 166}})
+    CHECK(copies_up_to(read("*22222"), length) == copies);
   CHECK(copies_per_length(read("**"), 4) == std::vector<Integer>{1, 2, 2, 2, 2});
   CHECK(copies_per_length(read("*237"), 0) == std::vector<Integer>{1});
 }
 
 TEST_CASE("the rational function and the counts are one series", "[notation]") {
-  for (const char* text : {"*237", "*732", "*666", "*2223", "*22222", "*23456789(10)(11)", "*(12)(18)(30)", "*2(210)(330)", "**", "*333", "*3(30)3(30)"}) {
+  for (const char* text :
+       {"*237", "*732", "*666", "*2223", "*22222", "*23456789(10)(11)", "*(12)(18)(30)", "*2(210)(330)", "**", "*333", "*3(30)3(30)"}) {
     CAPTURE(text);
     CHECK(expanded(growth_series(read(text)).value(), 300) == copies_per_length(read(text), 300));
   }
@@ -128,7 +132,8 @@ TEST_CASE("rooms with forty corners of forty orders have their series", "[notati
 
 TEST_CASE("long lists are counted as well", "[notation]") {
   CHECK(copies_up_to(read("*333"), 5000) == 1 + 3 * Integer(5000) * 5001 / 2);
-  CHECK(copies_per_length(read("*22222"), 1000)[1000] == 3 * copies_per_length(read("*22222"), 999)[999] - copies_per_length(read("*22222"), 998)[998]);
+  CHECK(copies_per_length(read("*22222"), 1000)[1000] ==
+        3 * copies_per_length(read("*22222"), 999)[999] - copies_per_length(read("*22222"), 998)[998]);
   CHECK(copies_up_to(read("**"), 1000000) == 2000001);
 }
 
