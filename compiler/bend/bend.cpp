@@ -26,12 +26,15 @@ struct Work {
   BendOptions options;
 };
 
-/// What one copy takes, and how wrong it is.
+/// What one copy takes, and how wrong it is. Splits that fit into a small store are kept for the second pass.
 struct CopyCount {
   std::size_t vertices = 0, triangles = 0, split_parts = 0;
   double worst = 0;
   bool too_many = false;
+  std::vector<Tessellation> kept;   ///< all of the copy's splits, or none
 };
+
+constexpr std::int64_t kStore = 48 << 20;   // bytes
 
 bool colours_vary(const place::PlacedRoom& room, const place::PlacedMesh& mesh) {
   std::uint16_t last = 0xffff;
@@ -59,8 +62,9 @@ bool is_drawn(const Work& work, const PartNet& net, const cover::Copy& copy) {
   return net.mesh->kind != place::PartKind::wall || wall < 0 || wall >= 64 || !((copy.nearer_walls >> wall) & 1);
 }
 
-CopyCount count_copy(const Work& work, const cover::Copy& copy, std::uint64_t most) {
+CopyCount count_copy(const Work& work, const cover::Copy& copy, std::uint64_t most, std::atomic<std::int64_t>& store) {
   CopyCount count;
+  std::int64_t bytes = 0;
   const CopyMap map = copy_map(work, copy);
   for (const PartNet& net : work.nets) {
     if (!is_drawn(work, net, copy)) continue;
@@ -71,23 +75,28 @@ CopyCount count_copy(const Work& work, const cover::Copy& copy, std::uint64_t mo
       count.worst = std::max(count.worst, bound);
       continue;
     }
-    const Tessellation fine = tessellate(map, work.sight, net, most);
+    Tessellation fine = tessellate(map, work.sight, net, most);
     count.vertices += fine.vertices.size();
     count.triangles += fine.triangles.size();
     count.worst = std::max(count.worst, fine.worst);
     count.too_many |= fine.too_many;
     ++count.split_parts;
+    bytes += static_cast<std::int64_t>(fine.vertices.size() * sizeof(NewVertex) + fine.triangles.size() * sizeof(mesh::Triangle));
+    if (bytes < kStore / 16) count.kept.push_back(std::move(fine));
   }
+  // Which copies are kept depends on who comes first, what is written does not.
+  if (count.kept.size() != count.split_parts || store.fetch_sub(bytes) < bytes) count.kept.clear();
   return count;
 }
 
 /// Writes the pieces of one copy at their places.
 class Writer {
  public:
-  Writer(const Work& work, const cover::Copy& copy, const BentRange& range, BentCover& out)
+  Writer(const Work& work, const cover::Copy& copy, const BentRange& range, const std::vector<Tessellation>& kept, BentCover& out)
       : work_(work), map_(copy_map(work, copy)), out_(out), vertex_(range.first_vertex), index_(range.first_index) {
     // An odd number of reflections turns triangles inside out, and so does going round the sphere to the far side.
     turned_ = copy.cover_from_room.reversing != (copy.sheet % 2 == 1);
+    std::size_t split = 0;
     for (const PartNet& net : work.nets) {
       if (!is_drawn(work, net, copy)) continue;
       if (error_bound(map_, work.sight, net) <= 1) {
@@ -95,6 +104,8 @@ class Writer {
         write_uv(*net.uv);
         write_triangles(net.mesh->triangles);
         vertex_ += net.points.w.size();
+      } else if (split < kept.size()) {
+        write_fine(net, kept[split++]);
       } else {
         write_fine(net, tessellate(map_, work.sight, net, std::numeric_limits<std::uint64_t>::max() / 4));
       }
@@ -183,10 +194,11 @@ Totals count_all(const Work& work, const Executor& executor, const Progress& pro
   Totals totals;
   totals.copies.resize(work.copies.size());
   std::atomic<std::uint64_t> so_far{0};
+  std::atomic<std::int64_t> store{kStore};
   const std::uint64_t most = work.options.max_triangles;
   for_copies(work, executor, progress, "splitting", [&](std::size_t i) {
     if (so_far.load(std::memory_order_relaxed) > most) return;
-    totals.copies[i] = count_copy(work, work.copies[i], most);
+    totals.copies[i] = count_copy(work, work.copies[i], most, store);
     so_far.fetch_add(totals.copies[i].triangles, std::memory_order_relaxed);
   });
   for (const CopyCount& c : totals.copies) {
@@ -238,7 +250,7 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<std::vec
     work.nets[i] = part_net(room.room.space, part, atlas_uv[i], vary ? options.colour_tolerance : 0);
   });
 
-  const Totals totals = count_all(work, executor, progress);
+  Totals totals = count_all(work, executor, progress);
   if (!totals.fits) return too_dense(work, executor);
 
   BentCover out;
@@ -258,7 +270,10 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<std::vec
   out.positions.resize(totals.vertices);
   out.uv.resize(totals.vertices);
   out.indices.resize(3 * totals.triangles);
-  for_copies(work, executor, progress, "bending", [&](std::size_t i) { Writer(work, copies[i], out.copies[i], out); });
+  for_copies(work, executor, progress, "bending", [&](std::size_t i) {
+    Writer(work, copies[i], out.copies[i], totals.copies[i].kept, out);
+    std::vector<Tessellation>().swap(totals.copies[i].kept);
+  });
   return out;
 }
 

@@ -44,28 +44,28 @@ void collect_edges(const place::PlacedMesh& mesh, PartNet& net) {
 }
 
 double bound_of_eye(const CopyMap& map, const Sight& sight, const PartNet& net, double from, double to) {
-  const double l2 = net.longest * net.longest;
-  double k = 0, reach = from;
-  if (map.log.space == Space::hyperbolic) {
-    k = std::hypot(std::min(1.0, 2 * to / 3), std::min(0.32, to / 3));
-  } else if (map.log.sheet == 0 && to <= std::numbers::pi / 2) {
-    k = to * std::hypot(1, 0.64);
-  } else {
-    const bool torn_below = map.log.sheet > 0;
-    if (to > std::numbers::pi - 1e-3 || (torn_below && from < 1e-3)) return kCannotTell;
-    double s = std::sin(to);
-    if (torn_below) s = std::min(s, std::sin(from)), reach = map.log.sheet * std::numbers::pi;
-    const double largest = torn_below ? (map.log.sheet + 1) * std::numbers::pi : to;
-    k = std::hypot(0.5 + largest, 1 + largest) / (s * s);
-  }
+  const double l2 = net.longest * net.longest, k = acceleration(map, from, to);
+  const double reach = map.log.sheet > 0 ? map.log.sheet * std::numbers::pi : from;
   const double level = std::max({0.0, net.low - sight.eye.z, sight.eye.z - net.high}), near = std::hypot(reach, level);
-  if (near < 1e-6) return kCannotTell;
+  if (near < 1e-6 || k == kCannotTell) return kCannotTell;
   double off = k * l2 / 6 + l2 / 50 * net.steepest;
   if (net.along > 0) off = std::max(off, (k * l2 / 6 + l2 / 50 * (net.steepest + net.longest)) / net.along);
   return off / near * densest(sight) / sight.tolerance;
 }
 
 }  // namespace
+
+double acceleration(const CopyMap& map, double from, double to) {
+  if (map.log.space == Space::euclidean) return 0;
+  if (map.log.space == Space::hyperbolic) return std::hypot(std::min(1.0, 2 * to / 3), std::min(0.32, to / 3));
+  if (map.log.sheet == 0 && to <= std::numbers::pi / 2) return to * std::hypot(1, 0.64);
+  const bool torn_below = map.log.sheet > 0;
+  if (to > std::numbers::pi - 1e-3 || (torn_below && from < 1e-3)) return kCannotTell;
+  // sin is smallest at one of the ends.
+  const double s = torn_below ? std::min(std::sin(from), std::sin(to)) : std::sin(to);
+  const double largest = torn_below ? (map.log.sheet + 1) * std::numbers::pi : to;
+  return std::hypot(0.5 + largest, 1 + largest) / (s * s);
+}
 
 PartNet part_net(Space space, const place::PlacedMesh& mesh, const std::vector<std::array<float, 2>>& uv, double along) {
   PartNet net;

@@ -28,6 +28,7 @@ struct Sight {
 struct Judgement {
   double share = 0;
   bool in_picture = true;
+  int worst = 0;                    ///< of a chord: which of the points is farthest off
 };
 
 /// Judges the chord from a to b against `count` points of the true curve.

@@ -31,22 +31,26 @@ struct Corner {
   std::array<double, 2> uv{};
   Vector3 at;
   Axis axis = Axis::none;
+  Ambient seen;                         ///< eye_from_copy · v
+  double distance = 0;                  ///< from the eye's foot, on the floor
+  double norm = 1;                      ///< of v; 1 on the surface
 };
 
 struct Edge {
   std::uint32_t a = 0, b = 0;
   std::int32_t mid = -1, first = -1;    ///< children: first joins a and mid, first + 1 joins mid and b
   std::int32_t ring = -1;               ///< the vertex on the circle when one end lies on an axis
+  bool tame = false;                    ///< far within the tolerance by distances alone; so is a triangle with three such edges
 };
 
 class Splitter {
  public:
   Splitter(const CopyMap& map, const Sight& sight, const PartNet& net, std::uint64_t most)
-      : map_(map), sight_(sight), net_(net), most_(most), samples_(net.longest > 1 ? 7 : 3) {
+      : map_(map), sight_(sight), net_(net), most_(most), samples_(net.longest > 1 ? 7 : 3), densest_(map.view == View::eye ? densest(sight) : 1) {
     double radius = 0;
     for (const Axis axis : {Axis::foot, Axis::antipode}) radius = std::max(radius, circle(axis));
     // Steps of the circle: its chords are judged like any other, at its own distance.
-    const double share = map.view == View::disk ? radius / std::max(1.0, radius) / sight.tolerance : densest(sight) / sight.tolerance;
+    const double share = map.view == View::disk ? radius / std::max(1.0, radius) / sight.tolerance : densest_ / sight.tolerance;
     steps_ = 8;
     while (steps_ < 65536 && share * (1 - std::cos(std::numbers::pi / steps_)) > 0.5) steps_ *= 2;
   }
@@ -82,17 +86,23 @@ class Splitter {
     return axis == Axis::foot && map_.log.sheet == 0 ? 0 : half_turns * std::numbers::pi;
   }
 
-  [[nodiscard]] Axis axis_of(const Ambient& v) const {
+  [[nodiscard]] Axis axis_of(const Ambient& p) const {
     if (map_.log.space != Space::spherical) return Axis::none;
-    const Ambient p = map_.log.eye_from_copy * v;
     if (std::hypot(p.x, p.y) > kSingular * std::fabs(p.w)) return Axis::none;
     const Axis axis = p.w < 0 ? Axis::antipode : Axis::foot;
     return circle(axis) > 0 ? axis : Axis::none;
   }
 
   [[nodiscard]] Corner corner(const Ambient& v, double z, std::array<double, 2> uv) const {
-    const Axis axis = axis_of(v);
-    return {v, z, uv, axis == Axis::none ? image_of(map_, v, z) : Vector3{circle(axis), 0, z}, axis};
+    Corner c{v, z, uv, {}, Axis::none, map_.log.eye_from_copy * v, 0, 1};
+    c.axis = axis_of(c.seen);
+    c.at = c.axis == Axis::none ? image_of(map_, v, z) : Vector3{circle(c.axis), 0, z};
+    c.norm = std::sqrt(std::fabs(v.w * v.w + geometry::curvature(map_.log.space) * (v.x * v.x + v.y * v.y)));
+    // The log map keeps distances, up to the half turns of the sheet.
+    c.distance = std::hypot(c.at.x, c.at.y);
+    const int turns = map_.log.sheet;
+    if (turns > 0) c.distance = turns % 2 == 1 ? (turns + 1) * std::numbers::pi - c.distance : c.distance - turns * std::numbers::pi;
+    return c;
   }
 
   /// Where a corner lies as a neighbour of `from`: a corner on an axis is on the circle, in the direction of the neighbour.
@@ -116,7 +126,7 @@ class Splitter {
   /// Where (as parameter) the edge crosses an axis at which the map is torn; negative: it does not.
   [[nodiscard]] double crossing(const Corner& a, const Corner& b) const {
     if (map_.log.space != Space::spherical || a.axis != Axis::none || b.axis != Axis::none) return -1;
-    const Ambient p = map_.log.eye_from_copy * a.v, q = map_.log.eye_from_copy * b.v;
+    const Ambient &p = a.seen, &q = b.seen;
     if (p.x * q.x + p.y * q.y >= 0) return -1;
     const double nw = p.x * q.y - p.y * q.x, nx = p.y * q.w - p.w * q.y, ny = p.w * q.x - p.x * q.w;
     if (std::fabs(nw) > kSingular * std::sqrt(nw * nw + nx * nx + ny * ny)) return -1;
@@ -134,17 +144,24 @@ class Splitter {
     Corner mid;
     if (t >= 0) {
       mid = mixed(a, b, t);
-      const Ambient p = map_.log.eye_from_copy * mid.v;
-      mid.axis = p.w < 0 ? Axis::antipode : Axis::foot;
+      mid.seen = map_.log.eye_from_copy * mid.v;
+      mid.axis = mid.seen.w < 0 ? Axis::antipode : Axis::foot;
       mid.at = {circle(mid.axis), 0, mid.z};
     } else {
       if (depth >= kDeepest) return;
-      const Judgement judgement = judge(a, b);
+      const double bound = quick_bound(a, b);
+      if (bound <= 0.5) {
+        out_.worst = std::max(out_.worst, bound);
+        edges_[id].tame = true;
+        return;
+      }
+      const double bisector = bisection(a, b);
+      const Judgement judgement = judge(a, b, bisector);
       if (!(judgement.share > 1)) {
         if (judgement.in_picture) out_.worst = std::max(out_.worst, judgement.share);
         return;
       }
-      mid = mixed(a, b, 0.5);
+      mid = mixed(a, b, bisector > 0 && judgement.worst == samples_ ? bisector : 0.5);
       const Corner placed = corner(mid.v, mid.z, mid.uv);
       mid = placed;
     }
@@ -158,14 +175,46 @@ class Splitter {
     resolve(first + 1, depth + 1);
   }
 
-  [[nodiscard]] Judgement judge(const Corner& a, const Corner& b) const {
-    Vector3 curve[7];
-    double parameter[7];
-    for (int i = 0; i < samples_; ++i) {
-      parameter[i] = (i + 1.0) / (samples_ + 1);
+  /// A bound of the chord's error from the two ends alone, in tolerances; half of it is enough for a triangle as well (Kℓ²/6 against Kℓ²/8).
+  [[nodiscard]] double quick_bound(const Corner& a, const Corner& b) const {
+    constexpr double kNoBound = 1e9;
+    if (map_.view == View::disk || a.axis != Axis::none || b.axis != Axis::none) return kNoBound;
+    const Ambient d = a.v - b.v;
+    // Not scaled back, v may be a little short (S²); H²: the Euclidean length is the larger one.
+    const double l = 1.1 * std::sqrt(d.w * d.w + d.x * d.x + d.y * d.y), l2 = l * l;
+    if (l > 0.5) return kNoBound;
+    const double from = std::max(0.0, (a.distance + b.distance - l) / 2), to = (a.distance + b.distance + l) / 2;
+    const double k = acceleration(map_, from, to), rise = std::fabs(a.z - b.z);
+    // How far the parameter runs ahead of the arc: by the curvature, and by unequal norms q: at most (√q − 1)/(√q + 1) ≤ (q − 1)/4.
+    const double ahead = l2 / 50 + (std::max(a.norm, b.norm) / std::min(a.norm, b.norm) - 1) / 4;
+    double off = k * l2 / 8 + ahead * rise;
+    const Vector3 p = a.at - sight_.eye, q = b.at - sight_.eye;
+    const double near = std::min(length(p), length(q)) - length(p - q) - off;
+    if (!(near > 1e-6)) return kNoBound;
+    if (net_.along > 0) off = std::max(off, (k * l2 / 8 + ahead * (rise + l)) / net_.along);
+    return off / near * densest_ / sight_.tolerance;
+  }
+
+  /// Where the edge is seen from the torn axis in the middle of its ends' directions: passing an axis closely, it turns there and nowhere else.
+  /// 0 when there is no torn axis to pass.
+  [[nodiscard]] double bisection(const Corner& a, const Corner& b) const {
+    if (map_.log.space != Space::spherical || a.axis != Axis::none || b.axis != Axis::none) return 0;
+    const double p = std::hypot(a.seen.x, a.seen.y), q = std::hypot(b.seen.x, b.seen.y);
+    // Rounded to 8 bits, so that neighbours choose the same point although their matrices differ in the last bit.
+    int exponent = 0;
+    const double digits = std::frexp(p / (p + q), &exponent);
+    return std::ldexp(std::round(digits * 256), exponent - 8);
+  }
+
+  [[nodiscard]] Judgement judge(const Corner& a, const Corner& b, double bisector) const {
+    Vector3 curve[8];
+    double parameter[8];
+    const int count = samples_ + (bisector > 0 ? 1 : 0);
+    for (int i = 0; i < count; ++i) {
+      parameter[i] = i == samples_ ? bisector : (i + 1.0) / (samples_ + 1);
       curve[i] = image_of(map_, (1 - parameter[i]) * a.v + parameter[i] * b.v, (1 - parameter[i]) * a.z + parameter[i] * b.z);
     }
-    return judge_chord(sight_, seen_with(a, b), seen_with(b, a), curve, parameter, samples_, net_.along);
+    return judge_chord(sight_, seen_with(a, b), seen_with(b, a), curve, parameter, count, net_.along);
   }
 
   std::uint32_t add(const Corner& c) {
@@ -189,6 +238,9 @@ class Splitter {
   /// Cuts a triangle by which of its edges are split, and goes on with the pieces.
   void split(Three t, Three e, int depth) {
     if (out_.too_many) return;
+    // First of all: pieces around an axis would never become flat, however small.
+    Corner inside;
+    if (around_axis(t, inside)) return split_at(t, e, add(inside), depth);
     int cut = 0;
     for (int k = 0; k < 3; ++k) cut += edges_[e[k]].mid >= 0;
     if (cut == 0) return settle(t, e, depth);
@@ -229,15 +281,14 @@ class Splitter {
     return d.w * d.w + d.x * d.x + d.y * d.y + dz * dz;
   }
 
-  /// A triangle with whole edges: drawn, unless its inside is torn or too far from flat.
+  /// A triangle with whole edges: drawn, unless its inside is too far from flat.
   void settle(const Three& t, const Three& e, int depth) {
     int on_axis = 0;
     for (const std::uint32_t i : t) on_axis += corners_[i].axis != Axis::none;
     if (on_axis > 0) return draw_on_axis(t, e, on_axis);
     if (depth < kDeepest) {
-      Corner inside;
-      if (around_axis(t, inside)) return split_at(t, e, add(inside), depth);
-      const Judgement judgement = judge_inside(t);
+      const bool tame = edges_[e[0]].tame && edges_[e[1]].tame && edges_[e[2]].tame;
+      const Judgement judgement = tame ? Judgement{0, false, 0} : judge_inside(t);
       if (judgement.share > 1) {
         const Corner &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
         std::array<double, 2> uv{};
@@ -257,15 +308,18 @@ class Splitter {
   /// Whether an axis at which the map is torn passes through the triangle; then `point` becomes the corner there.
   [[nodiscard]] bool around_axis(const Three& t, Corner& point) const {
     if (map_.log.space != Space::spherical) return false;
-    Ambient p[3];
-    for (int k = 0; k < 3; ++k) p[k] = map_.log.eye_from_copy * corners_[t[k]].v;
+    const Ambient* p[3];
+    for (int k = 0; k < 3; ++k) {
+      if (corners_[t[k]].axis != Axis::none) return false;
+      p[k] = &corners_[t[k]].seen;
+    }
     double b[3], sum = 0, w = 0;
     for (int k = 0; k < 3; ++k) {
-      const Ambient &q = p[(k + 1) % 3], &r = p[(k + 2) % 3];
+      const Ambient &q = *p[(k + 1) % 3], &r = *p[(k + 2) % 3];
       b[k] = q.x * r.y - q.y * r.x;
     }
     if (!((b[0] > 0 && b[1] > 0 && b[2] > 0) || (b[0] < 0 && b[1] < 0 && b[2] < 0))) return false;
-    for (int k = 0; k < 3; ++k) sum += b[k], w += b[k] * p[k].w;
+    for (int k = 0; k < 3; ++k) sum += b[k], w += b[k] * p[k]->w;
     const Axis axis = w * sum < 0 ? Axis::antipode : Axis::foot;
     if (circle(axis) == 0) return false;
     point = Corner{};
@@ -285,7 +339,7 @@ class Splitter {
   [[nodiscard]] Judgement judge_inside(const Three& t) const {
     const Corner &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
     // A level triangle stays level: nothing but its edges can be wrong, unless colours matter.
-    if (map_.log.space == Space::euclidean || (a.z == b.z && b.z == c.z && net_.along == 0)) return {0, false};
+    if (map_.log.space == Space::euclidean || (a.z == b.z && b.z == c.z && net_.along == 0)) return {0, false, 0};
     const Vector3 centre = image_of(map_, (1.0 / 3) * (a.v + b.v + c.v), (a.z + b.z + c.z) / 3);
     return judge_centre(sight_, {a.at, b.at, c.at}, centre, net_.along);
   }
@@ -312,9 +366,15 @@ class Splitter {
       return draw(t[0], ring_vertex(e[0], t[0], t[1]), ring_vertex(e[2], t[0], t[2]));
     }
     while (corners_[t[2]].axis == Axis::none) std::rotate(t.begin(), t.begin() + 1, t.end()), std::rotate(e.begin(), e.begin() + 1, e.end());
-    const std::uint32_t a = t[0], b = t[1], a_end = ring_vertex(e[2], a, t[2]), b_end = ring_vertex(e[1], b, t[2]);
+    const std::uint32_t a = t[0], b = t[1], b_end = ring_vertex(e[1], b, t[2]);
+    if (edges_[e[2]].ring < 0) {
+      // Upright, or nearly: both spokes end in one vertex.
+      const Vector3 off = seen_with(corners_[t[2]], corners_[a]) - corners_[b_end].at;
+      if (length(off) < 1e-12) edges_[e[2]].ring = static_cast<std::int32_t>(b_end);
+    }
+    const std::uint32_t a_end = ring_vertex(e[2], a, t[2]);
     draw(a, b, b_end);
-    if (std::hypot(corners_[a_end].at.x - corners_[b_end].at.x, corners_[a_end].at.y - corners_[b_end].at.y) < 1e-12) return;  // upright
+    if (a_end == b_end) return;
     // From B' back to A' along the polygon.
     const double from = std::atan2(corners_[b].at.y, corners_[b].at.x), to = std::atan2(corners_[a].at.y, corners_[a].at.x);
     const double turn = std::remainder(to - from, 2 * std::numbers::pi), step = 2 * std::numbers::pi / steps_;
@@ -338,6 +398,7 @@ class Splitter {
   const PartNet& net_;
   std::uint64_t most_;
   int samples_;
+  double densest_;
   int steps_ = 8;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;

@@ -33,6 +33,10 @@ struct CopyMap {
 /// The image in double. In: v a positive multiple of a point (H²: in the frame of the room, where nothing cancels).
 [[nodiscard]] geometry::Vector3 image_of(const CopyMap& map, const geometry::Ambient& v, double z);
 
+/// View::eye: a bound of the acceleration of the image of a unit-speed geodesic whose points lie at distances from … to of the eye's foot; infinite where it
+/// cannot tell. Formulas: part_net.cpp.
+[[nodiscard]] double acceleration(const CopyMap& map, double from, double to);
+
 /// A bound of the error (in tolerances) of drawing the part as it is, from distances alone; infinite when it cannot tell.
 [[nodiscard]] double error_bound(const CopyMap& map, const Sight& sight, const PartNet& net);
 

@@ -1,0 +1,32 @@
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "compiler/bend/tessellate.h"
+
+namespace orbc::bend {
+
+/// A part made for one copy: cut, lifted, or both. Keeps what its net refers to.
+struct OwnPart {
+  place::PlacedMesh mesh;
+  std::vector<std::array<float, 2>> uv;
+  PartNet net;
+};
+
+/// How a part lies to a wedge.
+enum class InWedge { all, some, none };
+[[nodiscard]] InWedge place_in(const cover::Wedge& wedge, const LogMap& map, const PartNet& net);
+
+/// Cuts a part to the wedge in which its copy is seen, before it is bent. The borders are planes through the eye, so the cuts are straight in the parts' own
+/// barycentric coordinates and stay flat.
+/// Makes:  vertices on cuts as Σ bᵢXᵢ, not scaled back to the surface, so that heights and uv stay affine (design §2); `net.points` has them on the surface.
+///         Where a cut meets an edge follows from the edge's two ends and the border alone: the copy on the other side gets the same vertex bit by bit.
+/// Error:  vertices within 1e-12 radians of a border, as the eye sees them, count as on it.
+[[nodiscard]] std::unique_ptr<OwnPart> clipped(const cover::Wedge& wedge, const LogMap& map, const PartNet& net);
+
+/// The part as it is on a storey: z ↦ sign·z + offset. Triangles keep their order of corners; the copy is turned inside out when sign < 0.
+[[nodiscard]] std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, const LogMap& map, const PartNet& net);
+
+}  // namespace orbc::bend
