@@ -202,8 +202,8 @@ class Splitter {
     const double p = std::hypot(a.seen.x, a.seen.y), q = std::hypot(b.seen.x, b.seen.y);
     // Rounded to 8 bits, so that neighbours choose the same point although their matrices differ in the last bit.
     int exponent = 0;
-    const double digits = std::frexp(p / (p + q), &exponent);
-    return std::ldexp(std::round(digits * 256), exponent - 8);
+    const double digits = std::frexp(std::min(p, q) / (p + q), &exponent), share = std::ldexp(std::round(digits * 256), exponent - 8);
+    return p < q ? share : 1 - share;
   }
 
   [[nodiscard]] Judgement judge(const Corner& a, const Corner& b, double bisector) const {
