@@ -3,8 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdlib>
 
+#include "compiler/cover/beam.h"
 #include "compiler/cover/reach.h"
+#include "compiler/cover/storeys.h"
+#include "compiler/cover/unfold.h"
 #include "compiler/notation/growth.h"
 
 namespace orbc::cover {
@@ -86,6 +90,35 @@ Counts count_copies(const Reach& reach, const place::PlacedRoom& room, const pla
   return whole_group(reach) ? from_series(reach, room.room.orbifold, most) : by_walking(reach, room, eye, most);
 }
 
+/// Each copy on each storey: the counts of both by bounces, multiplied like polynomials.
+Counts on_storeys(const Counts& flat, const Reach& reach, const place::PlacedRoom& room, const scene::CoverSpec& spec) {
+  const auto storeys = storeys_of(room, spec.max_bounces);
+  Counts counts;
+  counts.complete = flat.complete;
+  counts.by_bounces.resize(static_cast<std::size_t>(std::max(0, spec.max_bounces)) + 1);
+  for (std::size_t b = 0; b < flat.by_bounces.size(); ++b) {
+    for (const WeightedStorey& s : storeys) {
+      const std::size_t bounces = b + static_cast<std::size_t>(std::abs(s.storey.number));
+      const scene::Color weight = reach.weight[b] * s.weight;
+      if (bounces >= counts.by_bounces.size() || std::max({weight.r, weight.g, weight.b}) < spec.min_weight) continue;
+      counts.by_bounces[bounces] += flat.by_bounces[b];
+      counts.total += flat.by_bounces[b];
+    }
+  }
+  while (counts.by_bounces.size() > 1 && counts.by_bounces.back() == 0) counts.by_bounces.pop_back();
+  return counts;
+}
+
+Counts count_seen(const std::vector<Copy>& copies) {
+  Counts counts;
+  for (const Copy& copy : copies) {
+    counts.by_bounces.resize(std::max(counts.by_bounces.size(), static_cast<std::size_t>(copy.bounces) + 1));
+    ++counts.by_bounces[static_cast<std::size_t>(copy.bounces)];
+  }
+  counts.total = copies.size();
+  return counts;
+}
+
 Diagnostic too_much(const Counts& counts, int max_bounces, const Integer& most, const std::string& limit) {
   // The largest number of bounces whose copies all fit.
   Integer sum = 0;
@@ -103,19 +136,28 @@ Diagnostic too_much(const Counts& counts, int max_bounces, const Integer& most, 
 }  // namespace
 
 Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options) {
-  const auto reach = reach_of(room, eye, spec);
-  if (!reach) return reach.error();
   Plan plan;
-  plan.sheets = reach->sheets;
   for (const auto& part : room.parts) {
     plan.room_triangles += part.triangles.size();
     plan.room_vertices += part.floor.size();
   }
   const std::uint64_t bytes_per_copy = 20 * plan.room_vertices + 12 * plan.room_triangles + 200;
   const Integer most = options.max_bytes / bytes_per_copy;
-  Counts counts = count_copies(*reach, room, eye, most);
+  Counts counts;
+  if (needs_beams(room)) {
+    const auto copies = unfold(room, eye, spec);
+    if (!copies) return copies.error();
+    counts = count_seen(*copies);
+    for (const Copy& copy : *copies) plan.sheets = std::max(plan.sheets, copy.sheet + 1);
+  } else {
+    const auto reach = reach_of(room, eye, spec);
+    if (!reach) return reach.error();
+    plan.sheets = reach->sheets;
+    counts = count_copies(*reach, room, eye, most);
+    if (has_storeys(room)) counts = on_storeys(counts, *reach, room, spec);
+  }
   if (!counts.complete || counts.total > most) {
-    return too_much(counts, reach->max_bounces, most,
+    return too_much(counts, spec.max_bounces, most,
                     fmt::format("{} MiB hold ({} KiB each)", options.max_bytes >> 20, (bytes_per_copy + 1023) >> 10));
   }
   plan.copies = counts.total;

@@ -23,9 +23,9 @@ struct Plan {
 };
 
 /// Plans a scene: how many copies, triangles, bytes.
-/// Makes:       the number of copies from the growth series, or counted one by one where sizes or plain walls cut the group.
+/// Makes:       the number of copies from the growth series, or counted one by one where sizes or plain walls cut the group; copies that need beams are unfolded once.
 /// Exact:       copies. Bytes: 20 a vertex, 12 a triangle, 200 a copy, before any split.
-/// Diagnostics: those of `reach_of`; cover.too-much when the product would exceed `max_bytes`: the hint names the largest max_bounces that fits.
+/// Diagnostics: those of `unfold`; cover.too-much when the product would exceed `max_bytes`: the hint names the largest max_bounces that fits.
 [[nodiscard]] Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options = {});
 
 /// The error of a cover with more than `most` copies.

@@ -48,10 +48,7 @@ Result<Reach> reach_of(const place::PlacedRoom& room, const place::Eye& eye, con
   for (const int wall : reach.wall) reach.mirrors.push_back(room::reflection_in_wall(room.room, wall));
   const place::PlacedMirror* first = nullptr;
   for (const place::PlacedMirror& mirror : room.mirrors) {
-    if (mirror.wall < 0) {
-      return make_error("cover.storeys", mirror.wall == -1 ? "a mirror on the floor makes storeys below" : "a mirror on the ceiling makes storeys above",
-                        "storeys are not unfolded yet: draw the scene with the tracer");
-    }
+    if (mirror.wall < 0) continue;              // storeys.h
     const auto letter = std::find(reach.wall.begin(), reach.wall.end(), mirror.wall);
     if (letter == reach.wall.end()) continue;   // end walls of a strip carry no mirrors
     reach.open[static_cast<std::size_t>(letter - reach.wall.begin())] = true;

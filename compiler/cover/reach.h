@@ -21,8 +21,8 @@ struct Reach {
   double min_pixels = 0, pixels = 1;        ///< pixels per radian in the middle of the picture
 };
 
-/// In:          a furnished room of an orbifold whose mirrors are all alike.
-/// Diagnostics: cover.mixed-mirrors, cover.storeys (floor or ceiling mirrors), cover.not-an-orbifold: these need beams.
+/// In:          a furnished room of an orbifold whose walls' mirrors are all alike; mirrors on floor and ceiling are not looked at.
+/// Diagnostics: cover.mixed-mirrors, cover.not-an-orbifold: these need beams (beam.h).
 [[nodiscard]] Result<Reach> reach_of(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec);
 
 /// Visits every copy within reach of sheet 0 in the order of `enumerate`; visit(element, cover_from_room) → Walk. Copies behind plain walls and,

@@ -1,10 +1,13 @@
 // The stream of enumerate.h comes depth first, so words of one length come in their order: one bucket for each number of bounces sorts them.
 #include "compiler/cover/unfold.h"
 
+#include <algorithm>
 #include <iterator>
 
+#include "compiler/cover/beam.h"
 #include "compiler/cover/plan.h"
 #include "compiler/cover/reach.h"
+#include "compiler/cover/storeys.h"
 
 namespace orbc::cover {
 namespace {
@@ -25,9 +28,7 @@ Copy copy_of(const Reach& reach, const Element& element, const geometry::Isometr
   return copy;
 }
 
-}  // namespace
-
-Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const UnfoldOptions& options) {
+Result<std::vector<Copy>> unfold_by_group(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const UnfoldOptions& options) {
   auto reach = reach_of(room, eye, spec);
   if (!reach) return reach.error();
   std::vector<std::vector<Copy>> by_bounces(static_cast<std::size_t>(reach->max_bounces) + 1);
@@ -50,6 +51,15 @@ Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye
     std::vector<Copy>().swap(bucket);
   }
   return copies;
+}
+
+}  // namespace
+
+Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const UnfoldOptions& options) {
+  auto copies = needs_beams(room) ? unfold_by_beams(room, eye, spec, {std::min(options.max_copies, BeamOptions().max_beams), options.progress})
+                                  : unfold_by_group(room, eye, spec, options);
+  if (!copies || !has_storeys(room)) return copies;
+  return stacked(std::move(copies).value(), room, spec, options.max_copies);
 }
 
 }  // namespace orbc::cover

@@ -1,0 +1,171 @@
+#include "compiler/cover/beam.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "compiler/cover/storeys.h"
+#include "compiler/cover/unfold.h"
+#include "compiler/notation/parse.h"
+#include "compiler/room/realise.h"
+
+using namespace orbc;
+using geometry::Space;
+
+namespace {
+
+place::PlacedRoom mirror_room(const std::string& text, bool real = false) {
+  auto orbifold = notation::parse(text, {{}, real});
+  REQUIRE(orbifold);
+  auto room = room::realise(*orbifold, {}, real);
+  if (!room) FAIL(to_text(room.error()));
+  place::PlacedRoom placed;
+  placed.room = std::move(room).value();
+  for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
+    if (placed.room.walls[i].reflects) placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, 0.9, {1, 1, 1}});
+  }
+  return placed;
+}
+
+place::Eye eye_in(const place::PlacedRoom& room) {
+  place::Eye eye;
+  eye.room_from_eye = geometry::translation_by(room.room.space, 0.05, 0.03);
+  eye.z = 0.5;
+  return eye;
+}
+
+std::vector<cover::Copy> beams_of(const place::PlacedRoom& room, const scene::CoverSpec& spec) {
+  const auto copies = cover::unfold_by_beams(room, eye_in(room), spec);
+  if (!copies) FAIL(to_text(copies.error()));
+  return *copies;
+}
+
+/// The angle from a wedge's first border to its second.
+double angle(const cover::Wedge& w) { return std::atan2(cover::turn(w.from, w.to), w.from.x * w.to.x + w.from.y * w.to.y); }
+
+}  // namespace
+
+TEST_CASE("beams of a room of equal mirrors find the copies of the group, whole", "[cover]") {
+  const auto room = mirror_room(GENERATE("*22222", "*2323", "*237", "*333", "*244", "*2222", "*222", "*235", "*33", "*22", "*", "**"));
+  for (const int bounces : {0, 1, 5, 11}) {
+    const scene::CoverSpec spec{bounces, 0, 0, {}};
+    const auto by_beams = beams_of(room, spec);
+    const auto by_group = cover::unfold(room, eye_in(room), spec);
+    REQUIRE(by_group);
+    REQUIRE(by_beams.size() == by_group->size());
+    for (std::size_t i = 0; i < by_beams.size(); ++i) {
+      const auto &a = by_beams[i], &b = (*by_group)[i];
+      CHECK(a.word == b.word);
+      CHECK(a.sheet == b.sheet);
+      CHECK(a.bounces == b.bounces);
+      CHECK(a.nearer_walls == b.nearer_walls);
+      CHECK(!a.wedge);
+      CHECK(a.weight.r == Approx(b.weight.r).epsilon(1e-13));
+      CHECK(geometry::difference(a.cover_from_room, b.cover_from_room) <= 1e-12);
+    }
+  }
+}
+
+TEST_CASE("a copy of a room with odd corners and unequal mirrors is cut where its paths differ in weight", "[cover]") {
+  auto room = mirror_room("*333");
+  room.mirrors[0].reflectance = 0.5;
+  room.mirrors[1].reflectance = 0.7;
+  const auto copies = beams_of(room, {3, 0, 0, {}});
+  // s1 s2 s1 = s2 s1 s2: the copy opposite a corner is seen past it on both sides.
+  std::map<std::string, std::vector<cover::Copy>> by_word;
+  for (const auto& copy : copies) by_word[cover::to_string(copy.word)].push_back(copy);
+  const auto& across = by_word.at("1 2 1");
+  REQUIRE(across.size() == 2);
+  CHECK(std::min(across[0].weight.r, across[1].weight.r) == Approx(0.5 * 0.5 * 0.7));
+  CHECK(std::max(across[0].weight.r, across[1].weight.r) == Approx(0.5 * 0.7 * 0.7));
+  REQUIRE(across[0].wedge);
+  REQUIRE(across[1].wedge);
+  const bool meets = cover::same(across[0].wedge->to, across[1].wedge->from) || cover::same(across[1].wedge->to, across[0].wedge->from);
+  CHECK(meets);
+  CHECK(geometry::difference(across[0].cover_from_room, across[1].cover_from_room) == 0);
+  CHECK(by_word.at("1").size() == 1);
+  CHECK(!by_word.at("1")[0].wedge);
+}
+
+TEST_CASE("after each number of bounces the wedges fill the whole round", "[cover]") {
+  auto room = mirror_room(GENERATE("*(3/2)(12)(12)", "*(2.5)(2.5)(2.5)(2.5)", "*(3.5)(3.5)(3.5)", "*(2.5)(2.5)(2.5)"), true);
+  const auto copies = beams_of(room, {9, 0, 0, {}});
+  std::map<std::pair<int, int>, double> round;
+  std::map<int, double> of_bounces;
+  for (const auto& copy : copies) {
+    if (copy.bounces == 0) continue;
+    REQUIRE(copy.wedge);
+    CHECK(angle(*copy.wedge) > 0);
+    round[{copy.bounces, copy.sheet}] += angle(*copy.wedge);
+  }
+  // On S² a copy in which all rays meet again counts on two sheets.
+  for (const auto& [key, sum] : round) of_bounces[key.first] += sum;
+  for (const auto& [bounces, sum] : of_bounces) {
+    if (room.room.space != Space::spherical) CHECK(sum == Approx(2 * M_PI).epsilon(1e-9));
+    CHECK(sum >= 2 * M_PI * (1 - 1e-9));
+  }
+  CHECK(of_bounces.size() == 9);
+}
+
+TEST_CASE("plain parts of walls end beams", "[cover]") {
+  auto room = mirror_room("*2222");
+  room.mirrors.resize(1);
+  CHECK(beams_of(room, {6, 0, 0, {}}).size() == 2);
+  auto two = mirror_room("*2222");
+  two.mirrors.erase(two.mirrors.begin() + 1, two.mirrors.begin() + 2);
+  two.mirrors.erase(two.mirrors.begin() + 2);
+  CHECK(beams_of(two, {6, 0, 0, {}}).size() == 13);   // opposite: a row of 2·6 + 1
+}
+
+TEST_CASE("mirrors above each other must be alike", "[cover]") {
+  auto room = mirror_room("*2222");
+  room.mirrors[0].height[1] = 0.4;
+  room.mirrors.push_back({0, {0, 1}, {0.5, 1}, 0.5, {1, 1, 1}});
+  const auto copies = cover::unfold_by_beams(room, eye_in(room), {6, 0, 0, {}});
+  REQUIRE(!copies);
+  CHECK(copies.error().front().code == "cover.stacked-mirrors");
+  room.mirrors.back().reflectance = 0.9;
+  CHECK(cover::unfold_by_beams(room, eye_in(room), {6, 0, 0, {}}));
+}
+
+TEST_CASE("too many beams are refused with bounces that fit", "[cover]") {
+  const auto room = mirror_room("*(2.5)(2.5)(2.5)(2.5)", true);
+  const auto copies = cover::unfold_by_beams(room, eye_in(room), {30, 0, 0, {}}, {1000, {}});
+  REQUIRE(!copies);
+  CHECK(copies.error().front().code == "cover.too-much");
+  const std::string hint = copies.error().front().hint;
+  const int fits = std::stoi(hint.substr(hint.find(':') + 1));
+  CHECK(fits > 1);
+  CHECK(cover::unfold_by_beams(room, eye_in(room), {fits, 0, 0, {}}, {1000, {}}));
+  CHECK(!cover::unfold_by_beams(room, eye_in(room), {fits + 1, 0, 0, {}}, {1000, {}}));
+}
+
+TEST_CASE("mirrors on floor and ceiling stack storeys", "[cover]") {
+  auto room = mirror_room("*2222");
+  room.height = 2;
+  room.mirrors.clear();
+  room.mirrors.push_back({-2, {0, 0}, {0, 0}, 0.5, {1, 1, 1}});
+  const auto one = cover::unfold(room, eye_in(room), {6, 0, 0, {}});
+  REQUIRE(one);
+  REQUIRE(one->size() == 2);
+  CHECK((*one)[1].storey.sign == -1);
+  CHECK((*one)[1].storey.offset == 4);
+  room.mirrors.push_back({-1, {0, 0}, {0, 0}, 0.8, {1, 1, 1}});
+  const auto both = cover::unfold(room, eye_in(room), {3, 0, 0, {}});
+  REQUIRE(both);
+  REQUIRE(both->size() == 7);
+  std::map<int, cover::Copy> by_number;
+  for (const auto& copy : *both) by_number[copy.storey.number] = copy;
+  CHECK(by_number[-1].storey.offset == 0);
+  CHECK(by_number[2].storey.offset == 4);
+  CHECK(by_number[-3].storey.offset == -4);
+  CHECK(by_number[3].weight.r == Approx(0.5 * 0.8 * 0.5));
+  CHECK(by_number[-3].weight.r == Approx(0.8 * 0.5 * 0.8));
+  const auto with_walls = [&] {
+    auto full = mirror_room("*2222");
+    full.mirrors.push_back({-2, {0, 0}, {0, 0}, 0.5, {1, 1, 1}});
+    return cover::unfold(full, eye_in(full), {2, 0, 0, {}})->size();
+  }();
+  CHECK(with_walls == 13 + 5);   // as many again on the storey above, with a bounce less
+}
