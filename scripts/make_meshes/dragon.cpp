@@ -76,8 +76,8 @@ double foot(const Vector3& p, const Vector3& at, const Vector3& forward, const V
 }  // namespace
 
 Field dragon() {
-  const auto spine = curve({{{0.52, 0.66, 0.27}, 0.012}, {{0.4, 0.86, 0.13}, 0.028}, {{0.02, 1.0, 0.08}, 0.05}, {{-0.5, 0.93, 0.085}, 0.072},
-                            {{-0.92, 0.6, 0.1}, 0.098}, {{-0.98, 0.16, 0.17}, 0.14}, {{-0.68, 0, 0.34}, 0.225}, {{-0.36, 0, 0.5}, 0.272},
+  const auto spine = curve({{{0.52, 0.66, 0.27}, 0.012}, {{0.38, 0.88, 0.1}, 0.028}, {{0.02, 1.0, 0.045}, 0.05}, {{-0.5, 0.93, 0.05}, 0.072},
+                            {{-0.92, 0.6, 0.075}, 0.098}, {{-0.98, 0.16, 0.17}, 0.14}, {{-0.68, 0, 0.34}, 0.225}, {{-0.36, 0, 0.5}, 0.272},
                             {{-0.02, 0, 0.66}, 0.262}, {{0.2, 0, 0.86}, 0.205}, {{0.29, -0.01, 1.08}, 0.145}, {{0.25, -0.03, 1.28}, 0.112},
                             {{0.3, -0.06, 1.46}, 0.098}, {{0.44, -0.12, 1.55}, 0.092}}, 8);
   const Vector3 skull{0.46, -0.13, 1.555}, ahead = normalised(Vector3{0.84, -0.5, -0.1}), aside = normalised(cross({0, 0, 1}, ahead)), above = cross(ahead, aside);
@@ -86,7 +86,6 @@ Field dragon() {
 
   parts.push_back({[=](const Vector3& p) {
                      double d = limb(p, spine);
-                     // Broad plates under throat and belly, scales over the back: a fine relief.
                      for (const double s : {-1.0, 1.0}) {
                        d = blend(d, ellipsoid(p, {-0.42, 0.235 * s, 0.34}, {0.27, 0.14, 0.25}), 0.08);
                        d = blend(d, ellipsoid(p, {0.16, 0.17 * s, 0.66}, {0.13, 0.1, 0.2}), 0.07);

@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     write(folder + "/statue_small.ply", ply(simplified(fine, 5000, "statue_small")));
   }
   if (wants("dragon")) {
-    const auto fine = surface_of(dragon(), {-1.36, -1.6, -0.04}, {1.12, 1.6, 2.2}, 0.009);
+    const auto fine = surface_of(dragon(), {-1.36, -1.6, -0.04}, {1.12, 1.6, 2.2}, 0.0105);
     write(folder + "/dragon.ply", ply(simplified(fine, 28000, "dragon")));
   }
   if (wants("vase")) write(folder + "/vase.glb", glb(vase(), orbc::mesh::encode_png(vase_paint())));
