@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <thread>
 #include <vector>
 
 #include "compiler/bend/log_map.h"
+#include "tests/unit/bend/fixture.h"
 
 namespace {
 
@@ -61,12 +63,42 @@ void copy_memory(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * kVertices * kCopies));
 }
 
+/// The whole of bend(): 166 copies of `*22222` with floor, ceiling, beams and a knot of 26,016 triangles; count, split, map, write.
+void whole_cover(benchmark::State& state) {
+  bend::test::Furnishing with;
+  with.floor_cells = 4;
+  with.knot_along = 813;
+  with.knot_around = 16;
+  const auto room = bend::test::regular_room(5, 2, with);
+  const auto copies = bend::test::copies_of(room, 4);
+  const auto uv = bend::test::plain_uv(room);
+  const auto eye = bend::test::eye_at(room.room.space, 0.35, 2.9, 0.45, -0.2, -0.05);
+  const auto threads = static_cast<std::size_t>(state.range(0));
+  const Executor executor = [threads](std::size_t count, const std::function<void(std::size_t)>& task) {
+    std::vector<std::thread> all;
+    for (std::size_t t = 0; t < threads; ++t) {
+      all.emplace_back([=, &task] {
+        for (std::size_t i = t; i < count; i += threads) task(i);
+      });
+    }
+    for (auto& thread : all) thread.join();
+  };
+  std::size_t triangles = 0;
+  for (auto _ : state) {
+    const auto cover = bend::bend(room, uv, copies, eye, {}, executor);
+    triangles = cover->indices.size() / 3;
+    benchmark::DoNotOptimize(cover->positions.data());
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * triangles));
+}
+
 BENCHMARK(copy_memory);
 BENCHMARK_CAPTURE(run, bend_points_hyperbolic, bend::bend_points, Space::hyperbolic);
 BENCHMARK_CAPTURE(run, bend_points_spherical, bend::bend_points, Space::spherical);
 BENCHMARK_CAPTURE(run, bend_points_euclidean, bend::bend_points, Space::euclidean);
 BENCHMARK_CAPTURE(run, bend_points_scalar_hyperbolic, bend::bend_points_scalar, Space::hyperbolic);
 BENCHMARK_CAPTURE(run, bend_points_scalar_spherical, bend::bend_points_scalar, Space::spherical);
+BENCHMARK(whole_cover)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
