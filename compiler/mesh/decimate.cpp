@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "compiler/mesh/nearest.h"
 #include "compiler/mesh/weld.h"
@@ -16,9 +17,11 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpedantic"
+// clang-format off: QuadricT.hh needs the two before it
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Utils/vector_traits.hh>
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
+// clang-format on
 #include <OpenMesh/Core/System/omstream.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #pragma GCC diagnostic pop
@@ -73,7 +76,8 @@ void build(Work& work) {
     if (used[v]) work.handle[v] = work.surface.add_vertex(vec(mesh.positions[v]));
   }
   work.locked.assign(work.surface.n_vertices(), 0);
-  omerr().disable();
+  static std::once_flag quiet;  // it tells standard error of each face that it cannot add
+  std::call_once(quiet, [] { omerr().disable(); });
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
     const auto a = work.handle[work.weld[v[0]]], b = work.handle[work.weld[v[1]]], c = work.handle[work.weld[v[2]]];
@@ -103,7 +107,8 @@ void measure(Work& work) {
   };
   const auto normal_of = [&](OpenMesh::FaceHandle f, double& area) {
     auto h = s.halfedge_handle(f);
-    const auto p = s.point(s.to_vertex_handle(h)), q = s.point(s.to_vertex_handle(s.next_halfedge_handle(h))), r = s.point(s.from_vertex_handle(h));
+    const auto p = s.point(s.to_vertex_handle(h)), q = s.point(s.to_vertex_handle(s.next_halfedge_handle(h))),
+               r = s.point(s.from_vertex_handle(h));
     auto n = cross(q - p, r - p);
     const double size = n.norm();
     area = size / 2;
@@ -121,7 +126,9 @@ void measure(Work& work) {
     bool feature = !f.is_valid() || !g.is_valid();
     if (!feature) {
       const auto& mesh = work.mesh;
-      if (!mesh.material.empty()) feature = mesh.material[work.face[static_cast<std::size_t>(f.idx())]] != mesh.material[work.face[static_cast<std::size_t>(g.idx())]];
+      if (!mesh.material.empty())
+        feature =
+            mesh.material[work.face[static_cast<std::size_t>(f.idx())]] != mesh.material[work.face[static_cast<std::size_t>(g.idx())]];
       const OpenMesh::VertexHandle ends[2] = {s.to_vertex_handle(h), s.from_vertex_handle(h)};
       bool torn[2] = {false, false};
       for (std::size_t k = 0; k < 2 && !mesh.uv.empty(); ++k) {
@@ -207,7 +214,9 @@ class Module final : public OpenMesh::Decimater::ModBaseT<MeshT> {
     const auto& s = work_->surface;
     int count = 0;
     for (const auto h : s.voh_range(ci.v0)) count += work_->feature[static_cast<std::size_t>(s.edge_handle(h).idx())];
-    const auto is_feature = [&](OpenMesh::HalfedgeHandle h) { return h.is_valid() && work_->feature[static_cast<std::size_t>(s.edge_handle(h).idx())]; };
+    const auto is_feature = [&](OpenMesh::HalfedgeHandle h) {
+      return h.is_valid() && work_->feature[static_cast<std::size_t>(s.edge_handle(h).idx())];
+    };
     // Two features must not fall together on one edge.
     if ((is_feature(ci.v0vl) && is_feature(ci.vlv1)) || (is_feature(ci.vrv0) && is_feature(ci.v1vr))) return false;
     if (count == 2 && is_feature(ci.v0v1)) return true;
@@ -247,7 +256,8 @@ Mesh result(const Work& work) {
   mesh.textures = work.mesh.textures;
   std::vector<std::pair<std::uint32_t, Triangle>> kept;  // in the order of the input
   for (const auto f : work.surface.all_faces()) {
-    if (!work.surface.status(f).deleted()) kept.push_back({work.face[static_cast<std::size_t>(f.idx())], work.corners[static_cast<std::size_t>(f.idx())]});
+    if (!work.surface.status(f).deleted())
+      kept.push_back({work.face[static_cast<std::size_t>(f.idx())], work.corners[static_cast<std::size_t>(f.idx())]});
   }
   for (const auto t : work.left_over) kept.push_back({t, work.mesh.triangles[t]});
   std::sort(kept.begin(), kept.end());
@@ -296,7 +306,8 @@ Decimated once(const Mesh& mesh, std::size_t triangles, double quadric_bound) {
     for (const auto v : work.corners[static_cast<std::size_t>(f.idx())]) stays[work.weld[v]] = 1;
   }
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    if (work.weld[v] == v && work.handle[v].is_valid() && !stays[v]) done.error = std::max(done.error, nearest.distance(mesh.positions[v], 2 * size));
+    if (work.weld[v] == v && work.handle[v].is_valid() && !stays[v])
+      done.error = std::max(done.error, nearest.distance(mesh.positions[v], 2 * size));
   }
   return done;
 }
@@ -304,7 +315,8 @@ Decimated once(const Mesh& mesh, std::size_t triangles, double quadric_bound) {
 }  // namespace
 
 Decimated decimate(const Mesh& mesh, const DecimateOptions& options) {
-  if (mesh.triangles.size() <= std::max<std::size_t>(options.triangles, 4) || (options.triangles == 0 && options.max_error <= 0)) return {mesh, 0};
+  if (mesh.triangles.size() <= std::max<std::size_t>(options.triangles, 4) || (options.triangles == 0 && options.max_error <= 0))
+    return {mesh, 0};
   // The quadric error is a mean over planes, the measured one a maximum: when that is too large, less is tried.
   double bound = options.max_error;
   for (int attempt = 0; attempt < 8; ++attempt, bound *= 0.6) {

@@ -94,7 +94,8 @@ struct Box {
 };
 
 bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y && a.low.z <= b.high.z &&
+         b.low.z <= a.high.z;
 }
 Box joined(const Box& a, const Box& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
@@ -115,14 +116,12 @@ class CrossingSearch {
     build(0, order_.size());
   }
 
-  void run(Examination& found) {
-    found.crossings_known = nodes_.empty() || (self(0, found), tests_ <= options_.max_pair_tests);
-  }
+  void run(Examination& found) { found.crossings_known = nodes_.empty() || (self(0, found), tests_ <= options_.max_pair_tests); }
 
  private:
   struct Node {
     Box box;
-    std::uint32_t begin, end;        // into order_
+    std::uint32_t begin, end;           // into order_
     std::uint32_t left = 0, right = 0;  // 0: a leaf
   };
   const Vector3& point(std::uint32_t v) const { return mesh_.positions[v]; }
@@ -237,24 +236,29 @@ Diagnostics warnings_of(const Examination& e, const std::string& name) {
                                "turn its normals around in the program that made it"));
   }
   if (e.bad_edges > 0) {
-    out.push_back(make_warning("mesh.not-manifold", fmt::format("{}: {} edges have three or more triangles, one near {}", name, e.bad_edges, at(e.bad_at)),
+    out.push_back(make_warning("mesh.not-manifold",
+                               fmt::format("{}: {} edges have three or more triangles, one near {}", name, e.bad_edges, at(e.bad_at)),
                                "parts that touch along an edge are drawn right, but are no closed surface"));
   }
   if (e.turned_edges > 0) {
-    out.push_back(make_warning("mesh.turned-triangles", fmt::format("{}: at {} edges the two triangles disagree which side is outside, one near {}", name,
-                                                                    e.turned_edges, at(e.turned_at)),
-                               "make the normals consistent in the program that made it"));
+    out.push_back(make_warning(
+        "mesh.turned-triangles",
+        fmt::format("{}: at {} edges the two triangles disagree which side is outside, one near {}", name, e.turned_edges, at(e.turned_at)),
+        "make the normals consistent in the program that made it"));
   }
   if (e.degenerate > 0) {
-    out.push_back(make_warning("mesh.degenerate-triangles", fmt::format("{}: {} triangles have no area, one near {}", name, e.degenerate, at(e.degenerate_at))));
+    out.push_back(make_warning("mesh.degenerate-triangles",
+                               fmt::format("{}: {} triangles have no area, one near {}", name, e.degenerate, at(e.degenerate_at))));
   }
   if (e.crossings > 0) {
     out.push_back(make_warning("mesh.self-intersections",
-                               fmt::format("{}: {}{} pairs of triangles cross, one near {}", name, e.crossings_known ? "" : "at least ", e.crossings, at(e.crossing_at)),
+                               fmt::format("{}: {}{} pairs of triangles cross, one near {}", name, e.crossings_known ? "" : "at least ",
+                                           e.crossings, at(e.crossing_at)),
                                "it is drawn as it is; unite the parts to have one surface"));
   }
   if (e.open_edges > 0) {
-    out.push_back(make_note("mesh.open", fmt::format("{}: is open: {} border edges, one near {}; it is centred by its surface", name, e.open_edges, at(e.open_at))));
+    out.push_back(make_note("mesh.open", fmt::format("{}: is open: {} border edges, one near {}; it is centred by its surface", name,
+                                                     e.open_edges, at(e.open_at))));
   }
   return out;
 }

@@ -61,9 +61,11 @@ tinygltf::FsCallbacks callbacks(Files& files) {
   return fs;
 }
 
-bool keep_picture(tinygltf::Image* image, const int index, std::string*, std::string*, int, int, const unsigned char* bytes, int size, void* data) {
+bool keep_picture(tinygltf::Image* image, const int index, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
+                  void* data) {
   // In a buffer: the range is not checked yet, so not touched; it is found again through image->bufferView.
-  if (image->bufferView < 0 && size > 0) static_cast<Files*>(data)->pictures[index].assign(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
+  if (image->bufferView < 0 && size > 0)
+    static_cast<Files*>(data)->pictures[index].assign(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
   return true;
 }
 
@@ -125,10 +127,10 @@ class Reader {
   }
 
   void check_extensions() const {
-    static const std::set<std::string> known = {"KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual",
-                                                "KHR_materials_specular", "KHR_materials_ior", "KHR_materials_clearcoat",
-                                                "KHR_materials_sheen", "KHR_materials_transmission", "KHR_materials_volume",
-                                                "KHR_materials_emissive_strength", "KHR_materials_variants"};
+    static const std::set<std::string> known = {
+        "KHR_materials_unlit",        "KHR_mesh_quantization", "KHR_texture_transform",           "KHR_lights_punctual",
+        "KHR_materials_specular",     "KHR_materials_ior",     "KHR_materials_clearcoat",         "KHR_materials_sheen",
+        "KHR_materials_transmission", "KHR_materials_volume",  "KHR_materials_emissive_strength", "KHR_materials_variants"};
     for (const auto& extension : model_.extensionsRequired) {
       if (!known.count(extension)) fail("mesh.unsupported", "needs the glTF extension " + extension, "export it without compression");
     }
@@ -138,9 +140,11 @@ class Reader {
 
   /// The bytes of a buffer view from an offset on, at least `needed` of them.
   const unsigned char* range(int view, std::uint64_t offset, std::uint64_t needed, const std::string& what) const {
-    if (view < 0 || static_cast<std::size_t>(view) >= model_.bufferViews.size()) fail("mesh.bad-gltf", what + " uses a buffer view that is not there");
+    if (view < 0 || static_cast<std::size_t>(view) >= model_.bufferViews.size())
+      fail("mesh.bad-gltf", what + " uses a buffer view that is not there");
     const auto& v = model_.bufferViews[static_cast<std::size_t>(view)];
-    if (v.buffer < 0 || static_cast<std::size_t>(v.buffer) >= model_.buffers.size()) fail("mesh.bad-gltf", what + " uses a buffer that is not there");
+    if (v.buffer < 0 || static_cast<std::size_t>(v.buffer) >= model_.buffers.size())
+      fail("mesh.bad-gltf", what + " uses a buffer that is not there");
     const auto& data = model_.buffers[static_cast<std::size_t>(v.buffer)].data;
     const bool view_fits = v.byteOffset <= data.size() && v.byteLength <= data.size() - v.byteOffset;
     if (!view_fits || offset > v.byteLength || needed > v.byteLength - offset) {
@@ -155,26 +159,40 @@ class Reader {
       return static_cast<double>(value);
     };
     switch (type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE: return normalized ? std::max(get(std::int8_t{}) / 127, -1.0) : get(std::int8_t{});
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return get(std::uint8_t{}) / (normalized ? 255 : 1);
-      case TINYGLTF_COMPONENT_TYPE_SHORT: return normalized ? std::max(get(std::int16_t{}) / 32767, -1.0) : get(std::int16_t{});
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return get(std::uint16_t{}) / (normalized ? 65535 : 1);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return get(std::uint32_t{});
-      default: return get(float{});
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return normalized ? std::max(get(std::int8_t{}) / 127, -1.0) : get(std::int8_t{});
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return get(std::uint8_t{}) / (normalized ? 255 : 1);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return normalized ? std::max(get(std::int16_t{}) / 32767, -1.0) : get(std::int16_t{});
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return get(std::uint16_t{}) / (normalized ? 65535 : 1);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return get(std::uint32_t{});
+      default:
+        return get(float{});
     }
   }
   static std::uint64_t size_of(int type) {
     switch (type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE: case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
-      case TINYGLTF_COMPONENT_TYPE_SHORT: case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-      default: return 0;
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return 1;
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return 2;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return 4;
+      default:
+        return 0;
     }
   }
 
   /// All numbers of an accessor, `width` for each element.
   std::vector<double> numbers(int index, int type, std::uint64_t width, const std::string& what) const {
-    if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) fail("mesh.bad-gltf", what + " uses an accessor that is not there");
+    if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size())
+      fail("mesh.bad-gltf", what + " uses an accessor that is not there");
     const auto& a = model_.accessors[static_cast<std::size_t>(index)];
     const auto size = size_of(a.componentType);
     if (a.type != type || size == 0) fail("mesh.bad-gltf", what + " is of the wrong type");
@@ -184,14 +202,16 @@ class Reader {
     std::vector<double> values;
     if (a.bufferView >= 0) {
       std::uint64_t stride = element;
-      if (static_cast<std::size_t>(a.bufferView) < model_.bufferViews.size() && model_.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride != 0) {
+      if (static_cast<std::size_t>(a.bufferView) < model_.bufferViews.size() &&
+          model_.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride != 0) {
         stride = model_.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride;
         if (stride > 65536) fail("mesh.bad-gltf", what + " has an absurd stride");
       }
       const auto* bytes = range(a.bufferView, a.byteOffset, stride * (a.count - 1) + element, what);
       values.resize(a.count * width);
       for (std::uint64_t i = 0; i < a.count; ++i) {
-        for (std::uint64_t k = 0; k < width; ++k) values[i * width + k] = component(bytes + i * stride + k * size, a.componentType, a.normalized);
+        for (std::uint64_t k = 0; k < width; ++k)
+          values[i * width + k] = component(bytes + i * stride + k * size, a.componentType, a.normalized);
       }
     } else {
       values.resize(a.count * width);
@@ -224,7 +244,8 @@ class Reader {
     const auto count = model_.nodes.size();
     std::vector<char> seen(count, 0);
     if (!model_.scenes.empty()) {
-      const auto scene = model_.defaultScene >= 0 && static_cast<std::size_t>(model_.defaultScene) < model_.scenes.size() ? model_.defaultScene : 0;
+      const auto scene =
+          model_.defaultScene >= 0 && static_cast<std::size_t>(model_.defaultScene) < model_.scenes.size() ? model_.defaultScene : 0;
       for (const int root : model_.scenes[static_cast<std::size_t>(scene)].nodes) open.push_back({root, {}});
     } else {
       std::vector<char> is_child(count, 0);
@@ -247,9 +268,11 @@ class Reader {
       const auto& node = model_.nodes[static_cast<std::size_t>(index)];
       const Affine scene_from_node = parent * local_of(node);
       if (node.mesh >= 0) {
-        if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) fail("mesh.bad-gltf", fmt::format("mesh {} is not there", node.mesh));
+        if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
+          fail("mesh.bad-gltf", fmt::format("mesh {} is not there", node.mesh));
         const auto& primitives = model_.meshes[static_cast<std::size_t>(node.mesh)].primitives;
-        for (std::size_t p = 0; p < primitives.size(); ++p) add(primitives[p], scene_from_node, fmt::format("mesh {}, primitive {}", node.mesh, p));
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+          add(primitives[p], scene_from_node, fmt::format("mesh {}, primitive {}", node.mesh, p));
       }
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) open.push_back({*child, scene_from_node});
       if (open.size() > 4 * count + 16) fail("mesh.bad-gltf", "its nodes are no tree");
@@ -293,7 +316,8 @@ class Reader {
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       mesh_.triangles.push_back(t);
       mesh_.material.push_back(look);
-      if (mesh_.triangles.size() > options_.max_triangles) throw Wrong{too_many(files_.name, "triangles or more", mesh_.triangles.size(), options_.max_triangles)};
+      if (mesh_.triangles.size() > options_.max_triangles)
+        throw Wrong{too_many(files_.name, "triangles or more", mesh_.triangles.size(), options_.max_triangles)};
     }
   }
 
@@ -345,7 +369,8 @@ class Reader {
     if (known != looks_.end()) return known->second;
     Mesh::Look look;
     if (material >= 0) {
-      if (static_cast<std::size_t>(material) >= model_.materials.size()) fail("mesh.bad-gltf", fmt::format("material {} is not there", material));
+      if (static_cast<std::size_t>(material) >= model_.materials.size())
+        fail("mesh.bad-gltf", fmt::format("material {} is not there", material));
       const auto& pbr = model_.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness;
       look.color = {1, 1, 1};
       for (std::size_t k = 0; k < 3 && k < pbr.baseColorFactor.size(); ++k) {
@@ -356,7 +381,8 @@ class Reader {
     }
     if (mesh_.looks.size() >= 256) {
       if (looks_.size() == 256) {
-        loaded_.warnings.push_back(make_warning("mesh.too-many-looks", files_.name + ": more than 256 materials; the others look like the last one"));
+        loaded_.warnings.push_back(
+            make_warning("mesh.too-many-looks", files_.name + ": more than 256 materials; the others look like the last one"));
       }
       return looks_[material] = 255;
     }
@@ -372,7 +398,8 @@ class Reader {
     auto picture = picture_of(image);
     if (!picture) {
       const auto& reason = picture.error().front();
-      loaded_.warnings.push_back(make_warning("mesh.bad-texture", fmt::format("{}: a texture is left out: {}", files_.name, reason.message), reason.hint));
+      loaded_.warnings.push_back(
+          make_warning("mesh.bad-texture", fmt::format("{}: a texture is left out: {}", files_.name, reason.message), reason.hint));
       return images_[image] = -1;
     }
     mesh_.textures.push_back(*std::move(picture));
@@ -388,7 +415,8 @@ class Reader {
     const auto& image = model_.images[static_cast<std::size_t>(index)];
     const auto what = fmt::format("image {}", index);
     if (image.bufferView >= 0) {
-      if (static_cast<std::size_t>(image.bufferView) >= model_.bufferViews.size()) fail("mesh.bad-gltf", what + " uses a buffer view that is not there");
+      if (static_cast<std::size_t>(image.bufferView) >= model_.bufferViews.size())
+        fail("mesh.bad-gltf", what + " uses a buffer view that is not there");
       const auto size = model_.bufferViews[static_cast<std::size_t>(image.bufferView)].byteLength;
       const auto* bytes = range(image.bufferView, 0, size, what);
       return decode_image({reinterpret_cast<const char*>(bytes), size}, what, limits);
@@ -420,7 +448,8 @@ std::string first_line(std::string text) {
 
 }  // namespace
 
-Result<Loaded> read_gltf(std::string_view bytes, bool binary, const std::string& name, const std::string& folder, const LoadOptions& options) {
+Result<Loaded> read_gltf(std::string_view bytes, bool binary, const std::string& name, const std::string& folder,
+                         const LoadOptions& options) {
   if (auto wrong = scan_gltf(bytes, binary, name, options); !wrong.empty()) return wrong;
   Files files{name, folder, options.max_file_bytes, {}, {}};
   try {
@@ -430,8 +459,9 @@ Result<Loaded> read_gltf(std::string_view bytes, bool binary, const std::string&
     tinygltf::Model model;
     std::string error, warning;
     const auto size = static_cast<unsigned int>(bytes.size());
-    const bool done = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), size, "")
-                             : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+    const bool done =
+        binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), size, "")
+               : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
     if (!done) {
       if (!files.refused.empty()) return files.refused;
       return make_error("mesh.bad-gltf", fmt::format("{}: {}", name, first_line(error)), "check it with the Khronos glTF validator");

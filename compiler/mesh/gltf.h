@@ -10,8 +10,9 @@ namespace orbc::mesh {
 [[nodiscard]] Result<Loaded> read_gltf(std::string_view bytes, bool binary, const std::string& name, const std::string& folder,
                                        const LoadOptions& options);
 
-/// Looks over the JSON and the chunks before tinygltf sees them: depth, number of objects and values, buffers times their size, chunk lengths.
-/// tinygltf descends recursively and makes large structs of tiny objects. Diagnostics:  mesh.bad-gltf, mesh.truncated, mesh.too-big.
+/// Looks over the JSON and the chunks before tinygltf sees them: depth, number of objects and values, buffers times their size, chunk
+/// lengths. tinygltf descends recursively and makes large structs of tiny objects. Diagnostics:  mesh.bad-gltf, mesh.truncated,
+/// mesh.too-big.
 [[nodiscard]] Diagnostics scan_gltf(std::string_view bytes, bool binary, const std::string& name, const LoadOptions& options);
 
 }  // namespace orbc::mesh

@@ -21,7 +21,7 @@ struct JsonScan {
 
 JsonScan scan_json(std::string_view json) {
   JsonScan scan;
-  std::string_view key;      // the last string seen at depth 1
+  std::string_view key;  // the last string seen at depth 1
   bool in_buffers = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];

@@ -24,9 +24,10 @@ Diagnostics check_size(std::uint64_t width, std::uint64_t height, const std::str
   const auto side = static_cast<std::uint64_t>(limits.max_side);
   if (width > 0 && height > 0 && width <= side && height <= side && width * height * 4 <= limits.max_bytes) return {};
   if (width == 0 || height == 0) return {bad_image(name, "the picture is empty")};
-  return {make_error("mesh.image-too-big", fmt::format("{}: {} × {} pixels; at most {} a side and {} MB in all are read", name, width, height, side,
-                                                       limits.max_bytes >> 20),
-                     "make the picture smaller")};
+  return {make_error(
+      "mesh.image-too-big",
+      fmt::format("{}: {} × {} pixels; at most {} a side and {} MB in all are read", name, width, height, side, limits.max_bytes >> 20),
+      "make the picture smaller")};
 }
 
 struct PngImage {

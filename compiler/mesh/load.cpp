@@ -25,21 +25,30 @@ std::optional<Format> format_of(const std::string& path) {
   return {};
 }
 
-Result<Sieved> sieve(std::string_view bytes, Format format, const std::string& name, const std::string& folder, const LoadOptions& options) {
+Result<Sieved> sieve(std::string_view bytes, Format format, const std::string& name, const std::string& folder,
+                     const LoadOptions& options) {
   switch (format) {
-    case Format::obj: return sieve_obj(bytes, name, folder, options);
-    case Format::ply: return sieve_ply(bytes, name, folder, options);
-    case Format::off: return sieve_off(bytes, name, options);
-    default: return sieve_stl(bytes, name, options);
+    case Format::obj:
+      return sieve_obj(bytes, name, folder, options);
+    case Format::ply:
+      return sieve_ply(bytes, name, folder, options);
+    case Format::off:
+      return sieve_off(bytes, name, options);
+    default:
+      return sieve_stl(bytes, name, options);
   }
 }
 
 std::string word_of(Format format) {
   switch (format) {
-    case Format::obj: return "obj";
-    case Format::ply: return "ply";
-    case Format::off: return "off";
-    default: return "stl";
+    case Format::obj:
+      return "obj";
+    case Format::ply:
+      return "ply";
+    case Format::off:
+      return "off";
+    default:
+      return "stl";
   }
 }
 

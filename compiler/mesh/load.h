@@ -23,7 +23,8 @@ struct Loaded {
 };
 
 /// Reads a mesh file: OBJ (with its MTL), PLY, OFF, STL through OpenMesh, GLB and glTF through tinygltf.
-/// Makes:        one triangle mesh in the file's own axes (glTF: y up); polygons triangulated; vertices split where a corner has several uv;
+/// Makes:        one triangle mesh in the file's own axes (glTF: y up); polygons triangulated; vertices split where a corner has several
+/// uv;
 ///               node transforms of glTF applied; vertices that no triangle uses are left out.
 /// Diagnostics:  mesh.missing-file, mesh.not-a-file, mesh.unknown-format, mesh.too-big, mesh.truncated, mesh.bad-header, mesh.bad-number,
 ///               mesh.not-finite, mesh.bad-index, mesh.no-triangles, mesh.bad-gltf, mesh.unsupported, mesh.bad-reference, mesh.bad-texture;
@@ -33,7 +34,8 @@ struct Loaded {
 
 enum class Format { obj, ply, off, stl, gltf, glb };
 
-/// The same for bytes in memory. `name` is what diagnostics call the file; `folder` is where the files it refers to are, "" = refer to none.
+/// The same for bytes in memory. `name` is what diagnostics call the file; `folder` is where the files it refers to are, "" = refer to
+/// none.
 [[nodiscard]] Result<Loaded> load_mesh_bytes(std::string_view bytes, Format format, const std::string& name, const std::string& folder,
                                              const LoadOptions& options = {});
 

@@ -19,14 +19,14 @@ struct Image {
 /// A triangle mesh as it comes from a file or a formula: Euclidean, z up, counter-clockwise seen from outside.
 struct Mesh {
   std::vector<geometry::Vector3> positions;
-  std::vector<std::array<float, 2>> uv;   ///< per vertex (v from top to bottom as in glTF), or empty
+  std::vector<std::array<float, 2>> uv;  ///< per vertex (v from top to bottom as in glTF), or empty
   std::vector<Triangle> triangles;
-  std::vector<std::uint8_t> material;     ///< per triangle index into `colors`, or empty = 0
-  struct Look {                           ///< what the file says its surface looks like
+  std::vector<std::uint8_t> material;            ///< per triangle index into `looks`, or empty = 0
+  struct Look {                                  ///< what the file says its surface looks like
     std::array<double, 3> color{0.8, 0.8, 0.8};  ///< linear
-    int texture = -1;                     ///< index into `textures`
+    int texture = -1;                            ///< index into `textures`
   };
-  std::vector<Look> looks;                ///< empty when the file has no materials
+  std::vector<Look> looks;  ///< empty when the file has no materials
   std::vector<Image> textures;
 };
 

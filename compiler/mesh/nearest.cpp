@@ -32,7 +32,8 @@ double to_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const V
 }
 
 double to_box(const Vector3& p, const Vector3& low, const Vector3& high) {
-  const Vector3 d{std::max({low.x - p.x, 0.0, p.x - high.x}), std::max({low.y - p.y, 0.0, p.y - high.y}), std::max({low.z - p.z, 0.0, p.z - high.z})};
+  const Vector3 d{std::max({low.x - p.x, 0.0, p.x - high.x}), std::max({low.y - p.y, 0.0, p.y - high.y}),
+                  std::max({low.z - p.z, 0.0, p.z - high.z})};
   return square(d);
 }
 

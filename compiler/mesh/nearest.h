@@ -16,7 +16,7 @@ class Nearest {
  private:
   struct Node {
     geometry::Vector3 low, high;
-    std::uint32_t begin, end;  // into order_
+    std::uint32_t begin, end;   // into order_
     std::uint32_t left, right;  // 0: a leaf
   };
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);

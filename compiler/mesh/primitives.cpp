@@ -31,7 +31,8 @@ std::vector<std::array<double, 2>> circle(int count) {
 /// A grid of (columns+1) × (rows+1) vertices; row 0 at v = 0.
 class Grid {
  public:
-  Grid(Mesh& mesh, int columns, int rows) : mesh_(mesh), columns_(columns), base_(static_cast<std::uint32_t>(mesh.positions.size())), rows_(rows) {}
+  Grid(Mesh& mesh, int columns, int rows)
+      : mesh_(mesh), columns_(columns), base_(static_cast<std::uint32_t>(mesh.positions.size())), rows_(rows) {}
   void vertex(const Vector3& p, double u, double v) {
     mesh_.positions.push_back(p);
     mesh_.uv.push_back({static_cast<float>(u), static_cast<float>(v)});
@@ -185,7 +186,8 @@ Mesh sweep(const std::vector<Vector3>& middle, double tube, int across) {
       const Vector3 side = cross(tangent[at], normal[at]);
       const Vector3 e = std::cos(back) * normal[at] + std::sin(back) * side, f = cross(tangent[at], e);
       const auto& unit = c[static_cast<std::size_t>(j)];
-      grid.vertex(middle[at] + tube * (unit[0] * e + unit[1] * f), static_cast<double>(i) / static_cast<double>(n), static_cast<double>(j) / across);
+      grid.vertex(middle[at] + tube * (unit[0] * e + unit[1] * f), static_cast<double>(i) / static_cast<double>(n),
+                  static_cast<double>(j) / across);
     }
   }
   grid.triangles();

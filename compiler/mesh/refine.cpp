@@ -85,7 +85,8 @@ class Refinement {
     for (std::size_t k = 0; k < 3; ++k) count += (m[k] = middle(t[k], t[(k + 1) % 3])) != kNone;
     if (count == 0) return mesh_.triangles.push_back(t), true;
     if (count == 3) {
-      for (const Triangle& part : {Triangle{t[0], m[0], m[2]}, Triangle{m[0], t[1], m[1]}, Triangle{m[2], m[1], t[2]}, Triangle{m[0], m[1], m[2]}}) {
+      for (const Triangle& part :
+           {Triangle{t[0], m[0], m[2]}, Triangle{m[0], t[1], m[1]}, Triangle{m[2], m[1], t[2]}, Triangle{m[0], m[1], m[2]}}) {
         out.push_back(part);
       }
       return false;
@@ -128,7 +129,8 @@ Result<Mesh> refine(const Mesh& mesh, const SplitEdge& split, std::uint64_t max_
 Result<Mesh> refine_to_length(const Mesh& mesh, double max_edge, std::uint64_t max_triangles) {
   ORBC_CHECK(max_edge, >, 0);
   const double square = max_edge * max_edge;
-  return refine(mesh, [square](const Vector3& a, const Vector3& b) { return dot(a - b, a - b) > square; }, max_triangles);
+  return refine(
+      mesh, [square](const Vector3& a, const Vector3& b) { return dot(a - b, a - b) > square; }, max_triangles);
 }
 
 }  // namespace orbc::mesh

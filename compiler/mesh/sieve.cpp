@@ -11,7 +11,8 @@ namespace orbc::mesh {
 namespace fs = std::filesystem;
 
 Diagnostic not_finite(const std::string& name, const std::string& where) {
-  return make_error("mesh.not-finite", fmt::format("{}: {} has a coordinate that is not a finite number below {:g}", name, where, kLargestCoordinate),
+  return make_error("mesh.not-finite",
+                    fmt::format("{}: {} has a coordinate that is not a finite number below {:g}", name, where, kLargestCoordinate),
                     "export the mesh again");
 }
 
@@ -22,7 +23,8 @@ Diagnostic bad_number(const std::string& name, const std::string& where, std::st
 }
 
 Diagnostic truncated(const std::string& name, const std::string& what) {
-  return make_error("mesh.truncated", fmt::format("{}: {}", name, what), "the file was cut off, or its header is wrong: copy or export it again");
+  return make_error("mesh.truncated", fmt::format("{}: {}", name, what),
+                    "the file was cut off, or its header is wrong: copy or export it again");
 }
 
 Diagnostic too_many(const std::string& name, const std::string& what, std::uint64_t count, std::uint64_t bound) {

@@ -11,18 +11,20 @@ namespace orbc::mesh {
 struct Sieved {
   std::string text;
   bool binary = false;
-  bool has_uv = false;                        ///< the text has uv
+  bool has_uv = false;                          ///< the text has uv
   std::vector<std::array<float, 2>> corner_uv;  ///< of each corner in order, v from top, where the reader knows no such thing; or empty
-  std::vector<std::uint8_t> look;             ///< OBJ: of each face, or empty
+  std::vector<std::uint8_t> look;               ///< OBJ: of each face, or empty
   std::vector<Mesh::Look> looks;
   std::vector<Image> textures;
-  std::vector<std::string> texture_paths;     ///< of each texture
+  std::vector<std::string> texture_paths;  ///< of each texture
   Diagnostics warnings;
 };
 
 // Each takes the whole file. Diagnostics: those of load_mesh.
-[[nodiscard]] Result<Sieved> sieve_obj(std::string_view bytes, const std::string& name, const std::string& folder, const LoadOptions& options);
-[[nodiscard]] Result<Sieved> sieve_ply(std::string_view bytes, const std::string& name, const std::string& folder, const LoadOptions& options);
+[[nodiscard]] Result<Sieved> sieve_obj(std::string_view bytes, const std::string& name, const std::string& folder,
+                                       const LoadOptions& options);
+[[nodiscard]] Result<Sieved> sieve_ply(std::string_view bytes, const std::string& name, const std::string& folder,
+                                       const LoadOptions& options);
 [[nodiscard]] Result<Sieved> sieve_off(std::string_view bytes, const std::string& name, const LoadOptions& options);
 [[nodiscard]] Result<Sieved> sieve_stl(std::string_view bytes, const std::string& name, const LoadOptions& options);
 

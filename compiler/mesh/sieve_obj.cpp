@@ -54,8 +54,8 @@ class ObjSieve {
     }
     if (!materials_used_) sieved_.look.clear(), sieved_.looks.clear();
     if (skipped_ > 0) {
-      sieved_.warnings.push_back(make_warning("mesh.skipped-faces", fmt::format("{}: {} faces with fewer than three different vertices are left out",
-                                                                                name_, skipped_)));
+      sieved_.warnings.push_back(make_warning(
+          "mesh.skipped-faces", fmt::format("{}: {} faces with fewer than three different vertices are left out", name_, skipped_)));
     }
     return std::move(sieved_);
   }
@@ -155,7 +155,8 @@ class ObjSieve {
   Diagnostic bad_index(std::string_view text, const std::string& what, std::int64_t count) {
     std::string shown;
     for (const char c : text.substr(0, 40)) shown += c >= 32 && c < 127 ? c : '?';
-    return make_error("mesh.bad-index", fmt::format("{}: {}: \"{}\" names no {} (there are {} so far)", name_, where(), shown, what, count));
+    return make_error("mesh.bad-index",
+                      fmt::format("{}: {}: \"{}\" names no {} (there are {} so far)", name_, where(), shown, what, count));
   }
 
   void library(const std::string& reference) {
@@ -163,7 +164,8 @@ class ObjSieve {
     auto bytes = path ? read_file(*path, std::uint64_t{16} << 20) : Result<std::string>(path.error());
     if (!bytes) {
       const auto& reason = bytes.error().front();
-      sieved_.warnings.push_back(make_warning("mesh.bad-reference", fmt::format("{}: materials are left out: {}", name_, reason.message), reason.hint));
+      sieved_.warnings.push_back(
+          make_warning("mesh.bad-reference", fmt::format("{}: materials are left out: {}", name_, reason.message), reason.hint));
       return;
     }
     Tokens tokens(*bytes);
@@ -212,7 +214,8 @@ class ObjSieve {
   }
   std::uint8_t warn_too_many() {
     if (!warned_) {
-      sieved_.warnings.push_back(make_warning("mesh.too-many-looks", fmt::format("{}: more than 255 materials; the others look like the last one", name_)));
+      sieved_.warnings.push_back(
+          make_warning("mesh.too-many-looks", fmt::format("{}: more than 255 materials; the others look like the last one", name_)));
     }
     warned_ = true;
     return 254;

@@ -34,11 +34,13 @@ Result<Sieved> sieve_off(std::string_view bytes, const std::string& name, const 
     return make_error("mesh.bad-header", fmt::format("{}: does not begin with OFF", name));
   }
   const auto prefix = word.substr(0, word.size() - 3);
-  if (prefix.find_first_of("4n") != prefix.npos) return make_error("mesh.unsupported", fmt::format("{}: OFF of another dimension than 3", name));
+  if (prefix.find_first_of("4n") != prefix.npos)
+    return make_error("mesh.unsupported", fmt::format("{}: OFF of another dimension than 3", name));
   std::uint64_t counts[2] = {0, 0};
   for (int k = 0; k < 3; ++k) {
     word = tokens.next(true);
-    if (k == 0 && word == "BINARY") return make_error("mesh.unsupported", fmt::format("{}: binary OFF", name), "export it as text, or as PLY");
+    if (k == 0 && word == "BINARY")
+      return make_error("mesh.unsupported", fmt::format("{}: binary OFF", name), "export it as text, or as PLY");
     if (word.empty()) return truncated(name, "the counts are missing");
     const auto count = to_integer(word);
     if (!count || *count < 0) return bad_number(name, "counts", word);
@@ -72,8 +74,8 @@ Result<Sieved> sieve_off(std::string_view bytes, const std::string& name, const 
       const auto index = to_integer(word);
       if (!index) return bad_number(name, fmt::format("line {}: face {}", tokens.line(), f), word);
       if (*index < 0 || static_cast<std::uint64_t>(*index) >= counts[0]) {
-        return make_error("mesh.bad-index", fmt::format("{}: line {}: face {} uses vertex {}, but there are only {}", name, tokens.line(), f,
-                                                        *index, counts[0]));
+        return make_error("mesh.bad-index", fmt::format("{}: line {}: face {} uses vertex {}, but there are only {}", name, tokens.line(),
+                                                        f, *index, counts[0]));
       }
       face.push_back(*index);
     }
@@ -116,7 +118,8 @@ Result<Sieved> sieve_text_stl(std::string_view bytes, const std::string& name, c
     if (word.empty()) break;
     if (word == "vertex") {
       if (corner_of_facet++ == 0) text += "facet normal 0 0 1\nouter loop\n";
-      if (corner_of_facet > 3) return make_error("mesh.bad-header", fmt::format("{}: line {}: a facet with more than three vertices", name, line));
+      if (corner_of_facet > 3)
+        return make_error("mesh.bad-header", fmt::format("{}: line {}: a facet with more than three vertices", name, line));
       text += "vertex ";
       auto done = copy_coordinates(tokens, false, name, fmt::format("line {}", tokens.line()), text);
       if (!done) return std::move(done).error();
@@ -135,8 +138,8 @@ Result<Sieved> sieve_text_stl(std::string_view bytes, const std::string& name, c
       ended = ended && word != "solid";
       tokens.rest_of_line();
     } else {
-      return make_error("mesh.bad-header", fmt::format("{}: line {}: what is this? STL has facet, outer loop, vertex, endloop, endfacet", name,
-                                                       tokens.line()));
+      return make_error("mesh.bad-header", fmt::format("{}: line {}: what is this? STL has facet, outer loop, vertex, endloop, endfacet",
+                                                       name, tokens.line()));
     }
   }
   if (!ended) return truncated(name, "\"endsolid\" is missing at the end");

@@ -34,9 +34,10 @@ struct Header {
 
 Type type_of(std::string_view word) {
   constexpr std::pair<std::string_view, Type> kTypes[] = {
-      {"char", Type::i8},    {"int8", Type::i8},    {"uchar", Type::u8}, {"uint8", Type::u8},   {"short", Type::i16},  {"int16", Type::i16},
-      {"ushort", Type::u16}, {"uint16", Type::u16}, {"int", Type::i32},  {"int32", Type::i32},  {"uint", Type::u32},   {"uint32", Type::u32},
-      {"float", Type::f32},  {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}};
+      {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
+      {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
+      {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
+      {"float", Type::f32}, {"float32", Type::f32}, {"double", Type::f64}, {"float64", Type::f64}};
   for (const auto& [text, type] : kTypes) {
     if (text == word) return type;
   }
@@ -45,11 +46,20 @@ Type type_of(std::string_view word) {
 
 std::size_t size_of(Type type) {
   switch (type) {
-    case Type::none: return 0;
-    case Type::i8: case Type::u8: return 1;
-    case Type::i16: case Type::u16: return 2;
-    case Type::i32: case Type::u32: case Type::f32: return 4;
-    case Type::f64: return 8;
+    case Type::none:
+      return 0;
+    case Type::i8:
+    case Type::u8:
+      return 1;
+    case Type::i16:
+    case Type::u16:
+      return 2;
+    case Type::i32:
+    case Type::u32:
+    case Type::f32:
+      return 4;
+    case Type::f64:
+      return 8;
   }
   return 0;
 }
@@ -84,7 +94,8 @@ Result<Header> read_header(Tokens& tokens, const std::string& name) {
       auto word = tokens.next_in_line();
       if (word == "list") {
         property.count_type = type_of(tokens.next_in_line());
-        if (property.count_type == Type::none || property.count_type >= Type::f32) return bad("a list needs an integer type for its length");
+        if (property.count_type == Type::none || property.count_type >= Type::f32)
+          return bad("a list needs an integer type for its length");
         word = tokens.next_in_line();
       }
       property.type = type_of(word);
@@ -136,15 +147,32 @@ class Body {
     rest_.remove_prefix(size);
     if (big_) std::reverse(bytes, bytes + size);
     switch (type) {
-      case Type::none: break;
-      case Type::i8: value = as<std::int8_t>(bytes); break;
-      case Type::u8: value = as<std::uint8_t>(bytes); break;
-      case Type::i16: value = as<std::int16_t>(bytes); break;
-      case Type::u16: value = as<std::uint16_t>(bytes); break;
-      case Type::i32: value = as<std::int32_t>(bytes); break;
-      case Type::u32: value = as<std::uint32_t>(bytes); break;
-      case Type::f32: value = as<float>(bytes); break;
-      case Type::f64: value = as<double>(bytes); break;
+      case Type::none:
+        break;
+      case Type::i8:
+        value = as<std::int8_t>(bytes);
+        break;
+      case Type::u8:
+        value = as<std::uint8_t>(bytes);
+        break;
+      case Type::i16:
+        value = as<std::int16_t>(bytes);
+        break;
+      case Type::u16:
+        value = as<std::uint16_t>(bytes);
+        break;
+      case Type::i32:
+        value = as<std::int32_t>(bytes);
+        break;
+      case Type::u32:
+        value = as<std::uint32_t>(bytes);
+        break;
+      case Type::f32:
+        value = as<float>(bytes);
+        break;
+      case Type::f64:
+        value = as<double>(bytes);
+        break;
     }
     return true;
   }
@@ -222,7 +250,8 @@ class PlySieve {
         for (const auto& p : element.properties) {
           if (const auto slot = slot_of(element, p); slot <= kV) has[slot] = true;
         }
-        if (!has[kX] || !has[kY] || !has[kZ]) return {make_error("mesh.bad-header", fmt::format("{}: the vertices have no x, y, z", name_))};
+        if (!has[kX] || !has[kY] || !has[kZ])
+          return {make_error("mesh.bad-header", fmt::format("{}: the vertices have no x, y, z", name_))};
         vertex_uv_ = has[kU] && has[kV];
       }
       if (element.name == "face" && element.count > options_.max_triangles) {
@@ -285,7 +314,8 @@ class PlySieve {
   Diagnostics face(const std::vector<double>& list, std::uint64_t i) {
     for (const double index : list) {
       if (!(index >= 0) || index >= static_cast<double>(vertex_count_) || index != std::floor(index)) {
-        return {make_error("mesh.bad-index", fmt::format("{}: face {} uses vertex {:g}, but there are only {}", name_, i, index, vertex_count_))};
+        return {make_error("mesh.bad-index",
+                           fmt::format("{}: face {} uses vertex {:g}, but there are only {}", name_, i, index, vertex_count_))};
       }
     }
     put(faces_, static_cast<std::uint32_t>(list.size()));

@@ -143,13 +143,14 @@ Result<Loaded> to_mesh(const Soup& soup, const std::string& name, const LoadOpti
     for (const auto& t : triangulate(polygon, budget)) emit(t[0], t[1], t[2]);
   }
   if (mesh.triangles.empty()) {
-    return make_error("mesh.no-triangles", fmt::format("{}: there is no triangle in it ({} vertices, {} faces)", name, soup.positions.size(), faces),
+    return make_error("mesh.no-triangles",
+                      fmt::format("{}: there is no triangle in it ({} vertices, {} faces)", name, soup.positions.size(), faces),
                       "export the surface, not only its points or edges");
   }
   if (skipped > 0) {
-    loaded.warnings.push_back(make_warning("mesh.skipped-faces",
-                                           fmt::format("{}: {} of {} faces use fewer than three different vertices and are left out", name,
-                                                       skipped, faces)));
+    loaded.warnings.push_back(
+        make_warning("mesh.skipped-faces",
+                     fmt::format("{}: {} of {} faces use fewer than three different vertices and are left out", name, skipped, faces)));
   }
   return loaded;
 }

@@ -12,10 +12,10 @@ namespace orbc::mesh {
 /// Polygons as a file lists them: no topology, so that nothing is lost of a non-manifold mesh.
 struct Soup {
   std::vector<geometry::Vector3> positions;
-  std::vector<std::uint32_t> corners;        ///< vertex of each corner, face after face
-  std::vector<std::array<float, 2>> uv;      ///< of each corner (v from top), or empty
-  std::vector<std::uint32_t> face_begin;     ///< first corner of each face; one more at the end
-  std::vector<std::uint8_t> look;            ///< of each face, or empty
+  std::vector<std::uint32_t> corners;     ///< vertex of each corner, face after face
+  std::vector<std::array<float, 2>> uv;   ///< of each corner (v from top), or empty
+  std::vector<std::uint32_t> face_begin;  ///< first corner of each face; one more at the end
+  std::vector<std::uint8_t> look;         ///< of each face, or empty
 };
 
 /// Triangulates, splits vertices at uv seams, leaves out unused vertices and faces that use a vertex twice.

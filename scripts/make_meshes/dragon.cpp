@@ -55,9 +55,14 @@ Wing make_wing(double side, double lift) {
   scallop(wrist, tips[0], tips[1]);
   scallop(wrist, tips[1], tips[2]);
   const Vector3 bend = mix(wrist, tips[2], 0.45) + Vector3{0, 0, 0.07}, inner = mix(elbow, tips[3], 0.45) + Vector3{0, 0, 0.07};
-  wing.sails.insert(wing.sails.end(), {{wrist, bend, elbow}, {elbow, bend, inner}, {bend, tips[2], mix(mix(tips[2], tips[3], 0.5), elbow, 0.2)},
-                                       {bend, mix(mix(tips[2], tips[3], 0.5), elbow, 0.2), inner}, {inner, mix(mix(tips[2], tips[3], 0.5), elbow, 0.2), tips[3]},
-                                       {elbow, inner, root}, {inner, mix(tips[3], root, 0.5), root}, {inner, tips[3], mix(mix(tips[3], root, 0.5), elbow, 0.1)},
+  wing.sails.insert(wing.sails.end(), {{wrist, bend, elbow},
+                                       {elbow, bend, inner},
+                                       {bend, tips[2], mix(mix(tips[2], tips[3], 0.5), elbow, 0.2)},
+                                       {bend, mix(mix(tips[2], tips[3], 0.5), elbow, 0.2), inner},
+                                       {inner, mix(mix(tips[2], tips[3], 0.5), elbow, 0.2), tips[3]},
+                                       {elbow, inner, root},
+                                       {inner, mix(tips[3], root, 0.5), root},
+                                       {inner, tips[3], mix(mix(tips[3], root, 0.5), elbow, 0.1)},
                                        {elbow, root, shoulder}});
   return wing;
 }
@@ -76,11 +81,23 @@ double foot(const Vector3& p, const Vector3& at, const Vector3& forward, const V
 }  // namespace
 
 Field dragon() {
-  const auto spine = curve({{{0.52, 0.66, 0.27}, 0.012}, {{0.38, 0.88, 0.1}, 0.028}, {{0.02, 1.0, 0.045}, 0.05}, {{-0.5, 0.93, 0.05}, 0.072},
-                            {{-0.92, 0.6, 0.075}, 0.098}, {{-0.98, 0.16, 0.17}, 0.14}, {{-0.68, 0, 0.34}, 0.225}, {{-0.36, 0, 0.5}, 0.272},
-                            {{-0.02, 0, 0.66}, 0.262}, {{0.2, 0, 0.86}, 0.205}, {{0.29, -0.01, 1.08}, 0.145}, {{0.25, -0.03, 1.28}, 0.112},
-                            {{0.3, -0.06, 1.46}, 0.098}, {{0.44, -0.12, 1.55}, 0.092}}, 8);
-  const Vector3 skull{0.46, -0.13, 1.555}, ahead = normalised(Vector3{0.84, -0.5, -0.1}), aside = normalised(cross({0, 0, 1}, ahead)), above = cross(ahead, aside);
+  const auto spine = curve({{{0.52, 0.66, 0.27}, 0.012},
+                            {{0.38, 0.88, 0.1}, 0.028},
+                            {{0.02, 1.0, 0.045}, 0.05},
+                            {{-0.5, 0.93, 0.05}, 0.072},
+                            {{-0.92, 0.6, 0.075}, 0.098},
+                            {{-0.98, 0.16, 0.17}, 0.14},
+                            {{-0.68, 0, 0.34}, 0.225},
+                            {{-0.36, 0, 0.5}, 0.272},
+                            {{-0.02, 0, 0.66}, 0.262},
+                            {{0.2, 0, 0.86}, 0.205},
+                            {{0.29, -0.01, 1.08}, 0.145},
+                            {{0.25, -0.03, 1.28}, 0.112},
+                            {{0.3, -0.06, 1.46}, 0.098},
+                            {{0.44, -0.12, 1.55}, 0.092}},
+                           8);
+  const Vector3 skull{0.46, -0.13, 1.555}, ahead = normalised(Vector3{0.84, -0.5, -0.1}), aside = normalised(cross({0, 0, 1}, ahead)),
+                                           above = cross(ahead, aside);
   const auto head_at = [=](double x, double y, double z) { return skull + x * ahead + y * aside + z * above; };
   std::vector<Part> parts;
 
@@ -91,7 +108,9 @@ Field dragon() {
                        d = blend(d, ellipsoid(p, {0.16, 0.17 * s, 0.66}, {0.13, 0.1, 0.2}), 0.07);
                      }
                      return d;
-                   }, {-0.2, 0.35, 0.7}, 1.35});
+                   },
+                   {-0.2, 0.35, 0.7},
+                   1.35});
   // Spikes from the neck to the tip of the tail.
   std::vector<std::pair<Knot, Knot>> spikes;
   for (std::size_t i = 5; i + 1 < spine.size(); i += 3) {
@@ -107,20 +126,29 @@ Field dragon() {
                      double d = 1e9;
                      for (const auto& [a, b] : spikes) d = std::min(d, cone(p, a.at, b.at, a.radius, b.radius));
                      return d;
-                   }, {-0.2, 0.35, 0.7}, 1.4});
-  const std::vector<Knot> horn_knots = {{{-0.04, 0.055, 0.075}, 0.034}, {{-0.13, 0.085, 0.15}, 0.027}, {{-0.25, 0.11, 0.16}, 0.018}, {{-0.36, 0.13, 0.22}, 0.006}};
+                   },
+                   {-0.2, 0.35, 0.7},
+                   1.4});
+  const std::vector<Knot> horn_knots = {
+      {{-0.04, 0.055, 0.075}, 0.034}, {{-0.13, 0.085, 0.15}, 0.027}, {{-0.25, 0.11, 0.16}, 0.018}, {{-0.36, 0.13, 0.22}, 0.006}};
   std::vector<std::vector<Knot>> horns;
   for (const double s : {-1.0, 1.0}) {
     std::vector<Knot> horn, whisker;
     for (const auto& k : horn_knots) horn.push_back({head_at(k.at.x, s * k.at.y, k.at.z), k.radius});
     horns.push_back(curve(horn, 6));
     for (int fin = 0; fin < 3; ++fin) {
-      horns.push_back({{head_at(-0.03 - 0.01 * fin, s * 0.07, 0.03 - 0.045 * fin), 0.028}, {head_at(-0.18 - 0.03 * fin, s * (0.19 - 0.03 * fin), 0.05 - 0.085 * fin), 0.006}});
+      horns.push_back({{head_at(-0.03 - 0.01 * fin, s * 0.07, 0.03 - 0.045 * fin), 0.028},
+                       {head_at(-0.18 - 0.03 * fin, s * (0.19 - 0.03 * fin), 0.05 - 0.085 * fin), 0.006}});
     }
-    horns.push_back(curve({{head_at(0.33, s * 0.03, -0.005), 0.014}, {head_at(0.36, s * 0.1, 0.0), 0.011}, {head_at(0.3, s * 0.19, -0.07), 0.009}, {head_at(0.34, s * 0.25, -0.16), 0.006}}, 6));
+    horns.push_back(curve({{head_at(0.33, s * 0.03, -0.005), 0.014},
+                           {head_at(0.36, s * 0.1, 0.0), 0.011},
+                           {head_at(0.3, s * 0.19, -0.07), 0.009},
+                           {head_at(0.34, s * 0.25, -0.16), 0.006}},
+                          6));
   }
   parts.push_back({[=](const Vector3& p) {
-                     double d = blend(ellipsoid(p, head_at(0.02, 0, 0.01), {0.125, 0.125, 0.1}), cone(p, head_at(0.06, 0, 0.015), head_at(0.31, 0, 0.005), 0.085, 0.052), 0.05);
+                     double d = blend(ellipsoid(p, head_at(0.02, 0, 0.01), {0.125, 0.125, 0.1}),
+                                      cone(p, head_at(0.06, 0, 0.015), head_at(0.31, 0, 0.005), 0.085, 0.052), 0.05);
                      d = blend(d, ball(p, head_at(0.335, 0, 0.022), 0.044), 0.03);
                      d = blend(d, cone(p, head_at(0.03, 0, -0.075), head_at(0.24, 0, -0.15), 0.058, 0.034), 0.03);
                      d = blend(d, ball(p, head_at(0.245, 0, -0.148), 0.036), 0.02);
@@ -129,27 +157,38 @@ Field dragon() {
                        d = blend(d, ball(p, head_at(0.085, 0.07 * s, 0.045), 0.03), 0.006);
                        d = carve(d, ball(p, head_at(0.375, 0.026 * s, 0.045), 0.014), 0.01);
                        for (int tooth = 0; tooth < 3; ++tooth) {
-                         d = blend(d, cone(p, head_at(0.2 + 0.05 * tooth, (0.046 - 0.006 * tooth) * s, -0.035), head_at(0.205 + 0.05 * tooth, (0.043 - 0.006 * tooth) * s, -0.085 + 0.012 * (tooth == 1)), 0.014, 0.005), 0.006);
+                         d = blend(
+                             d,
+                             cone(p, head_at(0.2 + 0.05 * tooth, (0.046 - 0.006 * tooth) * s, -0.035),
+                                  head_at(0.205 + 0.05 * tooth, (0.043 - 0.006 * tooth) * s, -0.085 + 0.012 * (tooth == 1)), 0.014, 0.005),
+                             0.006);
                        }
                      }
                      for (const auto& horn : horns) d = blend(d, limb(p, horn), 0.014);
                      return d;
-                   }, head_at(0, 0, 0), 0.5});
+                   },
+                   head_at(0, 0, 0), 0.5});
   // Left foreleg on the ground, right one raised with the pearl; hind legs.
-  const auto left = curve({{{0.14, 0.2, 0.66}, 0.12}, {{0.06, 0.3, 0.4}, 0.088}, {{0.27, 0.29, 0.2}, 0.062}, {{0.36, 0.29, 0.065}, 0.06}}, 6);
-  const auto right = curve({{{0.17, -0.2, 0.68}, 0.118}, {{0.24, -0.34, 0.46}, 0.085}, {{0.47, -0.34, 0.52}, 0.06}, {{0.6, -0.33, 0.6}, 0.052}}, 6);
-  parts.push_back({[=](const Vector3& p) {
-                     double d = blend(limb(p, left), foot(p, {0.38, 0.29, 0.06}, {1, 0.05, 0}, {0, 1, 0}, 0.125), 0.04);
-                     double claw = blend(limb(p, right), foot(p, {0.62, -0.33, 0.61}, normalised(Vector3{1, 0, 0.25}), {0, 1, 0}, 0.1), 0.03);
-                     claw = blend(claw, cone(p, {0.6, -0.33, 0.57}, {0.69, -0.33, 0.49}, 0.035, 0.02), 0.03);
-                     d = std::min(d, claw);
-                     d = blend(d, ball(p, {0.765, -0.33, 0.585}, 0.1), 0.006);
-                     for (const double s : {-1.0, 1.0}) {
-                       const auto hind = std::vector<Knot>{{{-0.36, 0.28 * s, 0.22}, 0.11}, {{-0.2, 0.33 * s, 0.08}, 0.075}, {{-0.05, 0.34 * s, 0.06}, 0.062}};
-                       d = blend(d, blend(limb(p, hind), foot(p, {-0.06, 0.34 * s, 0.055}, {1, 0.12 * s, 0}, {0, 1, 0}, 0.125), 0.04), 0.04);
-                     }
-                     return d;
-                   }, {0.2, 0, 0.4}, 0.85});
+  const auto left =
+      curve({{{0.14, 0.2, 0.66}, 0.12}, {{0.06, 0.3, 0.4}, 0.088}, {{0.27, 0.29, 0.2}, 0.062}, {{0.36, 0.29, 0.065}, 0.06}}, 6);
+  const auto right =
+      curve({{{0.17, -0.2, 0.68}, 0.118}, {{0.24, -0.34, 0.46}, 0.085}, {{0.47, -0.34, 0.52}, 0.06}, {{0.6, -0.33, 0.6}, 0.052}}, 6);
+  parts.push_back(
+      {[=](const Vector3& p) {
+         double d = blend(limb(p, left), foot(p, {0.38, 0.29, 0.06}, {1, 0.05, 0}, {0, 1, 0}, 0.125), 0.04);
+         double claw = blend(limb(p, right), foot(p, {0.62, -0.33, 0.61}, normalised(Vector3{1, 0, 0.25}), {0, 1, 0}, 0.1), 0.03);
+         claw = blend(claw, cone(p, {0.6, -0.33, 0.57}, {0.69, -0.33, 0.49}, 0.035, 0.02), 0.03);
+         d = std::min(d, claw);
+         d = blend(d, ball(p, {0.765, -0.33, 0.585}, 0.1), 0.006);
+         for (const double s : {-1.0, 1.0}) {
+           const auto hind =
+               std::vector<Knot>{{{-0.36, 0.28 * s, 0.22}, 0.11}, {{-0.2, 0.33 * s, 0.08}, 0.075}, {{-0.05, 0.34 * s, 0.06}, 0.062}};
+           d = blend(d, blend(limb(p, hind), foot(p, {-0.06, 0.34 * s, 0.055}, {1, 0.12 * s, 0}, {0, 1, 0}, 0.125), 0.04), 0.04);
+         }
+         return d;
+       },
+       {0.2, 0, 0.4},
+       0.85});
   for (const double s : {-1.0, 1.0}) {
     const auto wing = make_wing(s, s < 0 ? 0.16 : -0.02);
     parts.push_back({[=](const Vector3& p) {
@@ -157,7 +196,9 @@ Field dragon() {
                        for (const auto& bone : wing.bones) bones = blend(bones, limb(p, bone), 0.02);
                        for (const auto& t : wing.sails) skin = blend(skin, sail(p, t.a, t.b, t.c, 0.0135), 0.012);
                        return blend(bones, skin, 0.016);
-                     }, {-0.4, 0.7 * s, 1.15}, 1.0});
+                     },
+                     {-0.4, 0.7 * s, 1.15},
+                     1.0});
   }
   return [=](const Vector3& world) {
     const Vector3 p = world - Vector3{0, 0, kRock};

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
+#include "compiler/mesh/image.h"
 #include "compiler/mesh/primitives.h"
 #include "compiler/mesh/weld.h"
-#include "compiler/mesh/image.h"
 #include "scripts/make_meshes/sdf.h"
 #include "scripts/make_meshes/vase.h"
 
@@ -40,7 +40,8 @@ std::string ply(Mesh mesh) {
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment made by scripts/make_meshes; z up, front along +x\nelement vertex " +
                     std::to_string(mesh.positions.size()) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                     std::to_string(mesh.triangles.size()) + "\nproperty list uchar uint vertex_indices\nend_header\n";
-  for (const auto& p : mesh.positions) put(out, static_cast<float>(p.x)), put(out, static_cast<float>(p.y)), put(out, static_cast<float>(p.z));
+  for (const auto& p : mesh.positions)
+    put(out, static_cast<float>(p.x)), put(out, static_cast<float>(p.y)), put(out, static_cast<float>(p.z));
   for (const auto& t : mesh.triangles) put(out, std::uint8_t{3}), put(out, t[0]), put(out, t[1]), put(out, t[2]);
   return out;
 }
@@ -73,8 +74,8 @@ std::string glb(const Mesh& mesh, const std::string& png) {
       R"({{"bufferView":1,"componentType":5126,"count":{},"type":"VEC2"}},{{"bufferView":2,"componentType":5123,"count":{},"type":"SCALAR"}}],)"
       R"("bufferViews":[{{"buffer":0,"byteLength":{},"target":34962}},{{"buffer":0,"byteOffset":{},"byteLength":{},"target":34962}},)"
       R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":34963}},{{"buffer":0,"byteOffset":{},"byteLength":{}}}],"buffers":[{{"byteLength":{}}}]}})",
-      mesh.positions.size(), low[0], low[1], low[2], high[0], high[1], high[2], mesh.uv.size(), 3 * mesh.triangles.size(), positions, positions, uvs, positions + uvs,
-      indices, picture, png.size(), data.size());
+      mesh.positions.size(), low[0], low[1], low[2], high[0], high[1], high[2], mesh.uv.size(), 3 * mesh.triangles.size(), positions,
+      positions, uvs, positions + uvs, indices, picture, png.size(), data.size());
   while (json.size() % 4) json += ' ';
   std::string out = "glTF";
   put(out, std::uint32_t{2});
@@ -91,7 +92,9 @@ Mesh knot() {
   for (const std::size_t quad : {1000, 5000, 9000}) {
     // The two triangles of a quad are neighbours in the list; the edge they share is the diagonal.
     auto &s = mesh.triangles[2 * quad], &t = mesh.triangles[2 * quad + 1];
-    const auto in = [](const orbc::mesh::Triangle& triangle, std::uint32_t v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); };
+    const auto in = [](const orbc::mesh::Triangle& triangle, std::uint32_t v) {
+      return std::find(triangle.begin(), triangle.end(), v) != triangle.end();
+    };
     while (in(t, s[0])) std::rotate(s.begin(), s.begin() + 1, s.end());
     while (in(s, t[0])) std::rotate(t.begin(), t.begin() + 1, t.end());
     const auto m = static_cast<std::uint32_t>(mesh.positions.size()), a = s[0], b = s[1], c = s[2], d = t[0];

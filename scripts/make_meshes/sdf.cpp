@@ -25,7 +25,10 @@ Mesh surface_of(const Field& field, const Vector3& low, const Vector3& high, dou
   int n[3];
   const double size[3] = {high.x - low.x, high.y - low.y, high.z - low.z};
   for (int k = 0; k < 3; ++k) n[k] = (static_cast<int>(size[k] / step) / kBlock + 1) * kBlock + 1;
-  const auto index = [&](int i, int j, int k) { return (static_cast<std::size_t>(k) * static_cast<std::size_t>(n[1]) + static_cast<std::size_t>(j)) * static_cast<std::size_t>(n[0]) + static_cast<std::size_t>(i); };
+  const auto index = [&](int i, int j, int k) {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(n[1]) + static_cast<std::size_t>(j)) * static_cast<std::size_t>(n[0]) +
+           static_cast<std::size_t>(i);
+  };
   const auto point = [&](double i, double j, double k) { return Vector3{low.x + i * step, low.y + j * step, low.z + k * step}; };
   std::vector<float> value(index(0, 0, n[2]), 1e9f);
   // Only blocks that the surface can meet are filled in finely.
@@ -55,8 +58,8 @@ Mesh surface_of(const Field& field, const Vector3& low, const Vector3& high, dou
           for (int axis = 0; axis < 3; ++axis) {
             int u[3] = {0, 0, 0}, v[3] = {0, 0, 0};
             u[(axis + 1) % 3] = 1, v[(axis + 2) % 3] = 1;
-            float* c[4] = {&value[index(i, j, k)], &value[index(i + u[0], j + u[1], k + u[2])], &value[index(i + u[0] + v[0], j + u[1] + v[1], k + u[2] + v[2])],
-                           &value[index(i + v[0], j + v[1], k + v[2])]};
+            float* c[4] = {&value[index(i, j, k)], &value[index(i + u[0], j + u[1], k + u[2])],
+                           &value[index(i + u[0] + v[0], j + u[1] + v[1], k + u[2] + v[2])], &value[index(i + v[0], j + v[1], k + v[2])]};
             if ((*c[0] < 0) != (*c[2] < 0) || (*c[1] < 0) != (*c[3] < 0) || (*c[0] < 0) == (*c[1] < 0)) continue;
             auto*& outside = *c[0] < 0 ? (*c[1] < *c[3] ? c[1] : c[3]) : (*c[0] < *c[2] ? c[0] : c[2]);
             *outside = -1e-6f;
@@ -71,8 +74,8 @@ Mesh surface_of(const Field& field, const Vector3& low, const Vector3& high, dou
             else if (!least || v < *least) least = &v;
           }
           const auto is_inside = [&](int c) { return value[index(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))] < 0; };
-          const bool diagonal = (inside == 2 || inside == 6) && (is_inside(0) == is_inside(7)) && (is_inside(1) == is_inside(6)) && (is_inside(2) == is_inside(5)) &&
-                                (is_inside(3) == is_inside(4));
+          const bool diagonal = (inside == 2 || inside == 6) && (is_inside(0) == is_inside(7)) && (is_inside(1) == is_inside(6)) &&
+                                (is_inside(2) == is_inside(5)) && (is_inside(3) == is_inside(4));
           if (diagonal) *least = -1e-6f, changed = true;
         }
       }
@@ -125,7 +128,8 @@ Mesh surface_of(const Field& field, const Vector3& low, const Vector3& high, dou
           int d1[3] = {0, 0, 0}, d2[3] = {0, 0, 0};
           d1[(axis + 1) % 3] = 1, d2[(axis + 2) % 3] = 1;
           const std::uint32_t a = vertex[index(i, j, k)], q = vertex[index(i - d1[0], j - d1[1], k - d1[2])],
-                              c = vertex[index(i - d1[0] - d2[0], j - d1[1] - d2[1], k - d1[2] - d2[2])], e = vertex[index(i - d2[0], j - d2[1], k - d2[2])];
+                              c = vertex[index(i - d1[0] - d2[0], j - d1[1] - d2[1], k - d1[2] - d2[2])],
+                              e = vertex[index(i - d2[0], j - d2[1], k - d2[2])];
           std::array<std::uint32_t, 4> quad = in ? std::array<std::uint32_t, 4>{a, q, c, e} : std::array<std::uint32_t, 4>{a, e, c, q};
           const auto& p = mesh.positions;
           const bool first = length(p[quad[0]] - p[quad[2]]) <= length(p[quad[1]] - p[quad[3]]);
@@ -147,9 +151,9 @@ Mesh simplified(const Mesh& mesh, std::size_t triangles, const char* name) {
     found = orbc::mesh::examine(done.mesh);
   }
   for (auto& p : done.mesh.positions) p.z -= found.lowest.z;
-  std::printf("%-16s %7zu -> %6zu triangles, error %.2e, %s, Euler %d, %zu bad edges, %zu crossings, box %.3f x %.3f x %.3f\n", name, mesh.triangles.size(),
-              done.mesh.triangles.size(), done.error, found.closed ? "closed" : "OPEN", found.euler, found.bad_edges, found.crossings,
-              found.highest.x - found.lowest.x, found.highest.y - found.lowest.y, found.highest.z - found.lowest.z);
+  std::printf("%-16s %7zu -> %6zu triangles, error %.2e, %s, Euler %d, %zu bad edges, %zu crossings, box %.3f x %.3f x %.3f\n", name,
+              mesh.triangles.size(), done.mesh.triangles.size(), done.error, found.closed ? "closed" : "OPEN", found.euler, found.bad_edges,
+              found.crossings, found.highest.x - found.lowest.x, found.highest.y - found.lowest.y, found.highest.z - found.lowest.z);
   return done.mesh;
 }
 

@@ -67,7 +67,8 @@ inline std::vector<Knot> curve(const std::vector<Knot>& knots, int steps) {
     for (int s = 0; s < steps + (i + 2 == n); ++s) {
       const double t = static_cast<double>(s) / steps, t2 = t * t, t3 = t2 * t;
       const auto weigh = [&](auto p, auto q, auto r, auto w) {
-        return (0.5 * (-t3 + 2 * t2 - t)) * p + (0.5 * (3 * t3 - 5 * t2 + 2)) * q + (0.5 * (-3 * t3 + 4 * t2 + t)) * r + (0.5 * (t3 - t2)) * w;
+        return (0.5 * (-t3 + 2 * t2 - t)) * p + (0.5 * (3 * t3 - 5 * t2 + 2)) * q + (0.5 * (-3 * t3 + 4 * t2 + t)) * r +
+               (0.5 * (t3 - t2)) * w;
       };
       out.push_back({weigh(a.at, b.at, c.at, d.at), std::max(weigh(a.radius, b.radius, c.radius, d.radius), 0.002)});
     }

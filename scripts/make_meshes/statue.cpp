@@ -22,7 +22,8 @@ double dress(const Vector3& p) {
   const double x = p.x - c.x, y = p.y - c.y, angle = std::atan2(y, x);
   // From hem to waist: bell, knees, hips, waist.
   double r = 0.335 * (1 - smoothstep(0, 0.34, z)) + 0.205 * smoothstep(0, 0.34, z);
-  r += (0.188 - 0.205) * smoothstep(0.3, 0.72, z) + (0.182 - 0.188) * smoothstep(0.72, 0.9, z) + (0.112 - 0.182) * smoothstep(0.88, 1.12, z);
+  r +=
+      (0.188 - 0.205) * smoothstep(0.3, 0.72, z) + (0.182 - 0.188) * smoothstep(0.72, 0.9, z) + (0.112 - 0.182) * smoothstep(0.88, 1.12, z);
   const double depth = 0.125 * (1 - smoothstep(0.0, 0.9, z)) + 0.02 * (1 - smoothstep(0.8, 1.08, z));
   const double turn = angle + 1.15 * z + 0.35 * std::sin(2 * angle);
   r *= 1 + depth * (std::cos(11 * turn) * 0.8 + 0.2 * std::cos(22 * turn));
@@ -82,14 +83,33 @@ struct Arms {
   std::vector<Knot> right, left, scarf;
   Arms() {
     const Vector3 c = axis(1.43);
-    right = curve({{c + Vector3{-0.01, -0.15, 0.0}, 0.056}, {c + Vector3{0.02, -0.27, 0.06}, 0.046}, {c + Vector3{0.05, -0.4, 0.16}, 0.037},
-                   {c + Vector3{0.09, -0.405, 0.31}, 0.036}, {c + Vector3{0.1, -0.36, 0.43}, 0.0225}, {c + Vector3{0.1, -0.345, 0.49}, 0.024}}, 6);
-    left = curve({{c + Vector3{-0.01, 0.15, 0.0}, 0.056}, {c + Vector3{-0.02, 0.26, -0.07}, 0.045}, {c + Vector3{-0.02, 0.375, -0.18}, 0.037},
-                  {c + Vector3{0.05, 0.46, -0.27}, 0.034}, {c + Vector3{0.13, 0.53, -0.32}, 0.022}, {c + Vector3{0.175, 0.56, -0.335}, 0.021}}, 6);
+    right = curve({{c + Vector3{-0.01, -0.15, 0.0}, 0.056},
+                   {c + Vector3{0.02, -0.27, 0.06}, 0.046},
+                   {c + Vector3{0.05, -0.4, 0.16}, 0.037},
+                   {c + Vector3{0.09, -0.405, 0.31}, 0.036},
+                   {c + Vector3{0.1, -0.36, 0.43}, 0.0225},
+                   {c + Vector3{0.1, -0.345, 0.49}, 0.024}},
+                  6);
+    left = curve({{c + Vector3{-0.01, 0.15, 0.0}, 0.056},
+                  {c + Vector3{-0.02, 0.26, -0.07}, 0.045},
+                  {c + Vector3{-0.02, 0.375, -0.18}, 0.037},
+                  {c + Vector3{0.05, 0.46, -0.27}, 0.034},
+                  {c + Vector3{0.13, 0.53, -0.32}, 0.022},
+                  {c + Vector3{0.175, 0.56, -0.335}, 0.021}},
+                 6);
     // A shawl from arm to arm behind the back, its end hanging down from the left one.
-    scarf = curve({{{0.05, -0.43, 1.49}, 0.012}, {{-0.03, -0.43, 1.57}, 0.02}, {{-0.17, -0.27, 1.26}, 0.022}, {{-0.245, -0.02, 1.02}, 0.024},
-                   {{-0.2, 0.26, 1.0}, 0.022}, {{-0.03, 0.43, 1.17}, 0.02}, {{0.06, 0.485, 1.14}, 0.02}, {{0.05, 0.5, 0.98}, 0.019},
-                   {{-0.01, 0.54, 0.82}, 0.018}, {{-0.03, 0.62, 0.68}, 0.017}, {{0.03, 0.67, 0.55}, 0.013}}, 7);
+    scarf = curve({{{0.05, -0.43, 1.49}, 0.012},
+                   {{-0.03, -0.43, 1.57}, 0.02},
+                   {{-0.17, -0.27, 1.26}, 0.022},
+                   {{-0.245, -0.02, 1.02}, 0.024},
+                   {{-0.2, 0.26, 1.0}, 0.022},
+                   {{-0.03, 0.43, 1.17}, 0.02},
+                   {{0.06, 0.485, 1.14}, 0.02},
+                   {{0.05, 0.5, 0.98}, 0.019},
+                   {{-0.01, 0.54, 0.82}, 0.018},
+                   {{-0.03, 0.62, 0.68}, 0.017},
+                   {{0.03, 0.67, 0.55}, 0.013}},
+                  7);
   }
 };
 
@@ -98,7 +118,8 @@ double hand(const Vector3& p, const Vector3& wrist, const Vector3& along, const 
   double d = cone(p, wrist, wrist + 0.045 * along, 0.021, 0.024);
   for (int f = 0; f < 4; ++f) {
     const double s = (f - 1.5) * 0.0135, l = f == 0 ? 0.85 : f == 3 ? 0.75 : 1;
-    const Vector3 a = wrist + 0.05 * along + s * across, b = a + 0.04 * l * (along + (0.6 * s / 0.02) * across + curl * up), c = b + 0.036 * l * (along + 2 * curl * up);
+    const Vector3 a = wrist + 0.05 * along + s * across, b = a + 0.04 * l * (along + (0.6 * s / 0.02) * across + curl * up),
+                  c = b + 0.036 * l * (along + 2 * curl * up);
     d = blend(d, std::min(cone(p, a, b, 0.0098, 0.0085), cone(p, b, c, 0.0085, 0.0068)), 0.008);
   }
   const Vector3 t = wrist + 0.012 * along - 0.016 * across, u = t + 0.03 * along - 0.024 * across + 0.012 * up;
@@ -118,13 +139,16 @@ Field statue() {
     body = blend(body, head(p), 0.03);
     const Vector3 c = axis(1.43);
     const Vector3 orb = c + Vector3{0.105, -0.33, 0.645};
-    double d = blend(body, hand(p, arms.right.back().at, normalised(Vector3{0.0, 0.1, 1}), normalised(Vector3{-0.3, 1, -0.1}), -0.28), 0.014);
+    double d =
+        blend(body, hand(p, arms.right.back().at, normalised(Vector3{0.0, 0.1, 1}), normalised(Vector3{-0.3, 1, -0.1}), -0.28), 0.014);
     d = blend(d, hand(p, arms.left.back().at, normalised(Vector3{0.8, 0.45, -0.12}), normalised(Vector3{0.45, -0.8, 0.1}), 0.12), 0.014);
     double shawl = 1e9;
     for (int strand = -1; strand <= 1; ++strand) {
       // The strands lie above each other behind the back, and spread where they hang.
       const double s = 0.034 * strand, hangs = smoothstep(1.1, 0.95, p.z) * smoothstep(0.3, 0.45, p.y);
-      shawl = blend(shawl, limb(p - Vector3{(-0.6 - 1.6 * smoothstep(0.9, 0.55, p.z)) * s * hangs, 0.012 * std::abs(strand), 0.8 * s}, arms.scarf), 0.022);
+      shawl = blend(shawl,
+                    limb(p - Vector3{(-0.6 - 1.6 * smoothstep(0.9, 0.55, p.z)) * s * hangs, 0.012 * std::abs(strand), 0.8 * s}, arms.scarf),
+                    0.022);
     }
     d = blend(d, shawl * 0.9, 0.008);
     d = blend(d, ball(p, orb, 0.085), 0.006);

@@ -1,9 +1,10 @@
 // A painted amphora: a lathed body, hollow, and two handles, with bands of meanders, rays and checkers in one picture.
+#include "scripts/make_meshes/vase.h"
+
 #include <numbers>
 
 #include "compiler/mesh/image.h"
 #include "compiler/mesh/weld.h"
-#include "scripts/make_meshes/vase.h"
 
 namespace make_meshes {
 namespace {
@@ -14,11 +15,13 @@ using std::numbers::pi;
 
 /// Outside from the foot up to the lip, over it, and down inside: radius and height, both ends on the axis.
 std::vector<Knot> profile() {
-  const std::vector<Knot> knots = {{{0.0, 0, 0.0}, 0}, {{0.1, 0, 0.0}, 0}, {{0.165, 0, 0.0}, 0}, {{0.172, 0, 0.022}, 0}, {{0.145, 0, 0.05}, 0}, {{0.105, 0, 0.085}, 0},
-                                   {{0.115, 0, 0.13}, 0}, {{0.2, 0, 0.25}, 0}, {{0.29, 0, 0.42}, 0}, {{0.325, 0, 0.58}, 0}, {{0.3, 0, 0.72}, 0}, {{0.21, 0, 0.83}, 0},
-                                   {{0.135, 0, 0.9}, 0}, {{0.118, 0, 0.98}, 0}, {{0.128, 0, 1.06}, 0}, {{0.175, 0, 1.115}, 0}, {{0.18, 0, 1.135}, 0}, {{0.165, 0, 1.142}, 0},
-                                   {{0.11, 0, 1.06}, 0}, {{0.098, 0, 0.98}, 0}, {{0.115, 0, 0.9}, 0}, {{0.19, 0, 0.82}, 0}, {{0.28, 0, 0.71}, 0}, {{0.303, 0, 0.58}, 0},
-                                   {{0.268, 0, 0.42}, 0}, {{0.18, 0, 0.26}, 0}, {{0.09, 0, 0.16}, 0}, {{0.0, 0, 0.14}, 0}};
+  const std::vector<Knot> knots = {{{0.0, 0, 0.0}, 0},    {{0.1, 0, 0.0}, 0},     {{0.165, 0, 0.0}, 0},  {{0.172, 0, 0.022}, 0},
+                                   {{0.145, 0, 0.05}, 0}, {{0.105, 0, 0.085}, 0}, {{0.115, 0, 0.13}, 0}, {{0.2, 0, 0.25}, 0},
+                                   {{0.29, 0, 0.42}, 0},  {{0.325, 0, 0.58}, 0},  {{0.3, 0, 0.72}, 0},   {{0.21, 0, 0.83}, 0},
+                                   {{0.135, 0, 0.9}, 0},  {{0.118, 0, 0.98}, 0},  {{0.128, 0, 1.06}, 0}, {{0.175, 0, 1.115}, 0},
+                                   {{0.18, 0, 1.135}, 0}, {{0.165, 0, 1.142}, 0}, {{0.11, 0, 1.06}, 0},  {{0.098, 0, 0.98}, 0},
+                                   {{0.115, 0, 0.9}, 0},  {{0.19, 0, 0.82}, 0},   {{0.28, 0, 0.71}, 0},  {{0.303, 0, 0.58}, 0},
+                                   {{0.268, 0, 0.42}, 0}, {{0.18, 0, 0.26}, 0},   {{0.09, 0, 0.16}, 0},  {{0.0, 0, 0.14}, 0}};
   auto points = curve(knots, 4);
   for (auto& p : points) p.at.x = std::max(p.at.x, 0.0), p.at.z = std::max(p.at.z, 0.0);
   return points;
@@ -51,7 +54,9 @@ Colour paint(double u, double v) {
   }
   if (within(0.57, 0.68, t)) return meander(18, t);
   if (within(0.68, 0.695, t)) return kInk;
-  if (within(0.695, 0.765, t)) return std::abs(std::fmod(u * 40, 1.0) - 0.5) < 0.4 * std::sqrt(std::max(0.0, 1 - (2 * t - 1) * (2 * t - 1))) ? kInk : kClay;  // tongues
+  if (within(0.695, 0.765, t))
+    return std::abs(std::fmod(u * 40, 1.0) - 0.5) < 0.4 * std::sqrt(std::max(0.0, 1 - (2 * t - 1) * (2 * t - 1))) ? kInk
+                                                                                                                  : kClay;  // tongues
   if (within(0.765, 0.78, t)) return kInk;
   if (within(0.78, 0.9, t)) return meander(9, t);
   return kInk;
@@ -93,7 +98,8 @@ Mesh vase() {
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int j = 0; j <= kAround; ++j) {
       const double a = 2 * pi * (j % kAround) / kAround;
-      add({points[i].at.x * std::cos(a), points[i].at.x * std::sin(a), points[i].at.z}, static_cast<double>(j) / kAround, i <= lip ? length[i] / length[lip] : 0.99);
+      add({points[i].at.x * std::cos(a), points[i].at.x * std::sin(a), points[i].at.z}, static_cast<double>(j) / kAround,
+          i <= lip ? length[i] / length[lip] : 0.99);
     }
   }
   const auto grid = [&](std::uint32_t base, std::uint32_t rows, std::uint32_t columns, bool points_at_ends) {
@@ -115,15 +121,22 @@ Mesh vase() {
       const Vector3 p = mix(points[i - 1].at, points[i].at, (z - points[i - 1].at.z) / (points[i].at.z - points[i - 1].at.z)) + above * n;
       return Vector3{side * p.x, 0, p.z};
     };
-    const auto middle = curve({{on_clay(0.99, 0.003), 0.025}, {on_clay(0.99, 0.05), 0.026}, {{0.27 * side, 0, 0.995}, 0.027}, {{0.335 * side, 0, 0.95}, 0.027},
-                               {{0.345 * side, 0, 0.87}, 0.027}, {on_clay(0.775, 0.05), 0.028}, {on_clay(0.77, 0.003), 0.03}}, 6);
+    const auto middle = curve({{on_clay(0.99, 0.003), 0.025},
+                               {on_clay(0.99, 0.05), 0.026},
+                               {{0.27 * side, 0, 0.995}, 0.027},
+                               {{0.335 * side, 0, 0.95}, 0.027},
+                               {{0.345 * side, 0, 0.87}, 0.027},
+                               {on_clay(0.775, 0.05), 0.028},
+                               {on_clay(0.77, 0.003), 0.03}},
+                              6);
     constexpr int kAcross = 16;
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     const std::size_t n = middle.size();
     for (std::size_t i = 0; i < n + 2; ++i) {
       const std::size_t at = i == 0 ? 0 : std::min(i - 1, n - 1);
       const bool end = i == 0 || i == n + 1;
-      const Vector3 along = normalised(middle[std::min(at + 1, n - 1)].at - middle[at > 0 ? at - 1 : 0].at), e = cross(Vector3{0, 1, 0}, along);
+      const Vector3 along = normalised(middle[std::min(at + 1, n - 1)].at - middle[at > 0 ? at - 1 : 0].at),
+                    e = cross(Vector3{0, 1, 0}, along);
       for (int j = 0; j <= kAcross; ++j) {
         const double a = 2 * pi * (j % kAcross) / kAcross, r = end ? 0 : middle[at].radius;
         add(middle[at].at + r * (std::cos(a) * Vector3{0, 1.25, 0} + std::sin(a) * e), static_cast<double>(j) / kAcross, 0.99);

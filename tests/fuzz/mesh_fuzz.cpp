@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.images.max_bytes = 1 << 20;
   if (data[0] % 7 == 6) {
     const auto image = decode_image(bytes, "fuzz", options.images);
-    if (image && image->rgba.size() != std::size_t{4} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height)) std::abort();
+    if (image && image->rgba.size() != std::size_t{4} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height))
+      std::abort();
     return 0;
   }
   const auto loaded = load_mesh_bytes(bytes, static_cast<Format>(data[0] % 7), "fuzz", "", options);

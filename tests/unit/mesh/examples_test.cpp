@@ -60,7 +60,9 @@ TEST_CASE("the small test meshes are what their names say", "[mesh]") {
     const auto loaded = load_mesh(kSource + "/tests/meshes/" + name);
     return loaded ? std::string("fine") : loaded.error().front().code;
   };
-  for (const auto* name : {"tetra.obj", "tetra.off", "ascii.ply", "little.ply", "big.ply", "binary.stl", "text.stl", "tetra.glb", "tetra.gltf", "inside_out.obj", "open.off"}) CHECK(code(name) == "fine");
+  for (const auto* name : {"tetra.obj", "tetra.off", "ascii.ply", "little.ply", "big.ply", "binary.stl", "text.stl", "tetra.glb",
+                           "tetra.gltf", "inside_out.obj", "open.off"})
+    CHECK(code(name) == "fine");
   CHECK(code("broken_truncated.ply") == "mesh.truncated");
   CHECK(code("broken_four_billion.ply") == "mesh.too-big");
   CHECK(code("broken_index.obj") == "mesh.bad-index");

@@ -52,9 +52,10 @@ inline std::string tetra_ply() {
          "0 0 0 255\n1 0 0 255\n0 1 0 255\n0 0 1 255\n3 0 2 1 9\n3 0 1 3 9\n3 1 2 3 9\n3 0 3 2 9\n";
 }
 inline std::string tetra_binary_ply(bool big) {
-  std::string out = std::string("ply\nformat binary_") + (big ? "big" : "little") +
-                    "_endian 1.0\nelement camera 1\nproperty list uchar short matrix\nelement vertex 4\nproperty double x\nproperty float y\n"
-                    "property short z\nproperty float s\nproperty float t\nelement face 4\nproperty list ushort uint vertex_index\nend_header\n";
+  std::string out =
+      std::string("ply\nformat binary_") + (big ? "big" : "little") +
+      "_endian 1.0\nelement camera 1\nproperty list uchar short matrix\nelement vertex 4\nproperty double x\nproperty float y\n"
+      "property short z\nproperty float s\nproperty float t\nelement face 4\nproperty list ushort uint vertex_index\nend_header\n";
   const auto add = [&](auto value) {
     std::string bytes;
     put(bytes, value);
@@ -119,7 +120,8 @@ inline std::string tetra_json(const std::string& uri) {
          "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,1]},"
          "{\"bufferView\":1,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}],"
          "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":24}],"
-         "\"buffers\":[{" + (uri.empty() ? "" : "\"uri\":\"" + uri + "\",") + "\"byteLength\":72}]}";
+         "\"buffers\":[{" +
+         (uri.empty() ? "" : "\"uri\":\"" + uri + "\",") + "\"byteLength\":72}]}";
 }
 inline std::string glb(std::string json, std::string data) {
   while (json.size() % 4) json += ' ';
@@ -149,10 +151,10 @@ inline std::string tetra_gltf() { return tetra_json("data:application/octet-stre
 
 /// The good files by name: what every format has to survive when they are cut off or bent.
 inline std::vector<std::pair<std::string, std::pair<Format, std::string>>> good_files() {
-  return {{"tetra.obj", {Format::obj, tetra_obj()}},        {"tetra.off", {Format::off, tetra_off()}},
-          {"ascii.ply", {Format::ply, tetra_ply()}},        {"little.ply", {Format::ply, tetra_binary_ply(false)}},
+  return {{"tetra.obj", {Format::obj, tetra_obj()}},          {"tetra.off", {Format::off, tetra_off()}},
+          {"ascii.ply", {Format::ply, tetra_ply()}},          {"little.ply", {Format::ply, tetra_binary_ply(false)}},
           {"big.ply", {Format::ply, tetra_binary_ply(true)}}, {"binary.stl", {Format::stl, tetra_binary_stl()}},
-          {"text.stl", {Format::stl, tetra_stl()}},         {"tetra.glb", {Format::glb, tetra_glb()}},
+          {"text.stl", {Format::stl, tetra_stl()}},           {"tetra.glb", {Format::glb, tetra_glb()}},
           {"tetra.gltf", {Format::gltf, tetra_gltf()}}};
 }
 

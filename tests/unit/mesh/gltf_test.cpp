@@ -16,13 +16,17 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   REQUIRE(at != std::string::npos);
   return text.replace(at, from.size(), to);
 }
-Result<Loaded> load(const std::string& json, const std::string& data = tetra_data()) { return load_mesh_bytes(glb(json, data), Format::glb, "file", ""); }
+Result<Loaded> load(const std::string& json, const std::string& data = tetra_data()) {
+  return load_mesh_bytes(glb(json, data), Format::glb, "file", "");
+}
 std::string changed(const std::string& from, const std::string& to) { return replaced(tetra_json(""), from, to); }
 
 }  // namespace
 
 TEST_CASE("nodes of a glTF move, turn, scale and mirror their meshes", "[mesh]") {
-  const auto turned = load(changed("{\"mesh\":0}", "{\"mesh\":0,\"translation\":[10,0,0],\"rotation\":[0,0,0.70710678118654752,0.70710678118654752],\"scale\":[2,3,4]}"));
+  const auto turned =
+      load(changed("{\"mesh\":0}",
+                   "{\"mesh\":0,\"translation\":[10,0,0],\"rotation\":[0,0,0.70710678118654752,0.70710678118654752],\"scale\":[2,3,4]}"));
   REQUIRE(turned);
   auto found = examine(turned->mesh);
   CHECK(found.volume == Approx(4));
@@ -30,7 +34,8 @@ TEST_CASE("nodes of a glTF move, turn, scale and mirror their meshes", "[mesh]")
   CHECK(found.highest.x == Approx(10));
   CHECK(found.highest.y == Approx(2));
   CHECK(found.highest.z == Approx(4));
-  const auto mirrored = load(changed("{\"mesh\":0}", "{\"children\":[1],\"matrix\":[-1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},{\"mesh\":0,\"translation\":[1,0,0]}"));
+  const auto mirrored = load(
+      changed("{\"mesh\":0}", "{\"children\":[1],\"matrix\":[-1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},{\"mesh\":0,\"translation\":[1,0,0]}"));
   REQUIRE(mirrored);
   found = examine(mirrored->mesh);
   CHECK(found.volume == Approx(1.0 / 6));
@@ -41,8 +46,9 @@ TEST_CASE("nodes of a glTF move, turn, scale and mirror their meshes", "[mesh]")
 
 TEST_CASE("without scenes all roots of a glTF are read; with scenes only the chosen one", "[mesh]") {
   CHECK(load(changed("\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", ""))->mesh.triangles.size() == 4);
-  const auto two = changed("\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]",
-                           "\"scene\":1,\"scenes\":[{\"nodes\":[0,1]},{\"nodes\":[1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[5,0,0]}]");
+  const auto two =
+      changed("\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]",
+              "\"scene\":1,\"scenes\":[{\"nodes\":[0,1]},{\"nodes\":[1]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[5,0,0]}]");
   const auto loaded = load(two);
   REQUIRE(loaded);
   CHECK(loaded->mesh.triangles.size() == 4);
@@ -80,7 +86,8 @@ TEST_CASE("indices of a glTF may have 8, 16 or 32 bits, positions may be quantis
   for (const auto& t : tetra_faces()) {
     for (const int v : t) put(data, static_cast<std::uint16_t>(v));
   }
-  json = replaced(changed("5126", "5120,\"normalized\":true"), "{\"buffer\":0,\"byteLength\":48}", "{\"buffer\":0,\"byteLength\":16,\"byteStride\":4}");
+  json = replaced(changed("5126", "5120,\"normalized\":true"), "{\"buffer\":0,\"byteLength\":48}",
+                  "{\"buffer\":0,\"byteLength\":16,\"byteStride\":4}");
   json = replaced(replaced(json, "\"byteOffset\":48", "\"byteOffset\":16"), "\"byteLength\":72", "\"byteLength\":40");
   const auto quantised = load(json, data);
   REQUIRE(quantised);
@@ -93,17 +100,25 @@ TEST_CASE("sparse accessors of a glTF are applied and checked", "[mesh]") {
   for (const float x : {0.0f, 0.0f, 6.0f}) put(data, x);
   const auto sparse = [&](const std::string& text) {
     auto json = changed("\"count\":4,", "\"count\":4,\"sparse\":" + text + ",");
-    json = replaced(json, "\"byteLength\":24}", "\"byteLength\":24},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":2},{\"buffer\":0,\"byteOffset\":76,\"byteLength\":12}");
+    json =
+        replaced(json, "\"byteLength\":24}",
+                 "\"byteLength\":24},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":2},{\"buffer\":0,\"byteOffset\":76,\"byteLength\":12}");
     return load(replaced(json, "\"byteLength\":72}", "\"byteLength\":88}"), data);
   };
   const auto fine = sparse("{\"count\":1,\"indices\":{\"bufferView\":2,\"componentType\":5123},\"values\":{\"bufferView\":3}}");
   REQUIRE(fine);
   CHECK(examine(fine->mesh).volume == Approx(1));
-  CHECK(code_of(sparse("{\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":5123},\"values\":{\"bufferView\":3}}")) == "mesh.bad-gltf");
-  CHECK(code_of(sparse("{\"count\":1,\"indices\":{\"bufferView\":9,\"componentType\":5123},\"values\":{\"bufferView\":3}}")) == "mesh.bad-gltf");
-  CHECK(code_of(sparse("{\"count\":-1,\"indices\":{\"bufferView\":2,\"componentType\":5123},\"values\":{\"bufferView\":3}}")) == "mesh.bad-gltf");
-  CHECK(code_of(sparse("{\"count\":1,\"indices\":{\"bufferView\":2,\"componentType\":5123,\"byteOffset\":-2},\"values\":{\"bufferView\":3}}")) == "mesh.bad-gltf");
-  CHECK(code_of(sparse("{\"count\":1,\"indices\":{\"bufferView\":1,\"componentType\":5125},\"values\":{\"bufferView\":3}}")) == "mesh.bad-index");
+  CHECK(code_of(sparse("{\"count\":2,\"indices\":{\"bufferView\":2,\"componentType\":5123},\"values\":{\"bufferView\":3}}")) ==
+        "mesh.bad-gltf");
+  CHECK(code_of(sparse("{\"count\":1,\"indices\":{\"bufferView\":9,\"componentType\":5123},\"values\":{\"bufferView\":3}}")) ==
+        "mesh.bad-gltf");
+  CHECK(code_of(sparse("{\"count\":-1,\"indices\":{\"bufferView\":2,\"componentType\":5123},\"values\":{\"bufferView\":3}}")) ==
+        "mesh.bad-gltf");
+  CHECK(code_of(sparse(
+            "{\"count\":1,\"indices\":{\"bufferView\":2,\"componentType\":5123,\"byteOffset\":-2},\"values\":{\"bufferView\":3}}")) ==
+        "mesh.bad-gltf");
+  CHECK(code_of(sparse("{\"count\":1,\"indices\":{\"bufferView\":1,\"componentType\":5125},\"values\":{\"bufferView\":3}}")) ==
+        "mesh.bad-index");
 }
 
 TEST_CASE("a textured glTF gives uv, colour and picture, embedded, by data URI and beside it", "[mesh]") {
@@ -115,12 +130,15 @@ TEST_CASE("a textured glTF gives uv, colour and picture, embedded, by data URI a
   const auto size = data.size();
   data += png;
   auto json = replaced(tetra_json(""), "\"POSITION\":0}", "\"POSITION\":0,\"TEXCOORD_0\":2},\"material\":0");
-  json = replaced(json, "\"type\":\"SCALAR\"}", "\"type\":\"SCALAR\"},{\"bufferView\":2,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"}");
-  json = replaced(json, "\"byteLength\":24}", "\"byteLength\":24},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":32},{\"buffer\":0,\"byteOffset\":" + std::to_string(size) +
-                                                  ",\"byteLength\":" + std::to_string(png.size()) + "}");
+  json = replaced(json, "\"type\":\"SCALAR\"}",
+                  "\"type\":\"SCALAR\"},{\"bufferView\":2,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"}");
+  json = replaced(json, "\"byteLength\":24}",
+                  "\"byteLength\":24},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":32},{\"buffer\":0,\"byteOffset\":" +
+                      std::to_string(size) + ",\"byteLength\":" + std::to_string(png.size()) + "}");
   json = replaced(json, "\"byteLength\":72}", "\"byteLength\":" + std::to_string(data.size()) + "}");
   const auto with = [&](const std::string& image, const std::string& extra = "") {
-    return json.substr(0, json.size() - 1) + ",\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,0.25,1],\"baseColorTexture\":{\"index\":0" + extra +
+    return json.substr(0, json.size() - 1) +
+           ",\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,0.25,1],\"baseColorTexture\":{\"index\":0" + extra +
            "}}}],\"textures\":[{\"source\":0}],\"images\":[{" + image + "}]}";
   };
   folder.write("pics/my pic.png", png);
@@ -141,8 +159,10 @@ TEST_CASE("a textured glTF gives uv, colour and picture, embedded, by data URI a
   check(with("\"bufferView\":3,\"mimeType\":\"image/png\""));
   check(with("\"uri\":\"data:image/png;base64," + base64(png) + "\""));
   check(with("\"uri\":\"pics/my%20pic.png\""));
-  const auto moved = load_mesh(folder.write("b.glb", glb(with("\"bufferView\":3,\"mimeType\":\"image/png\"",
-                                                            ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0.5,0.25],\"scale\":[2,1],\"rotation\":0}}"), data)));
+  const auto moved = load_mesh(
+      folder.write("b.glb", glb(with("\"bufferView\":3,\"mimeType\":\"image/png\"",
+                                     ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0.5,0.25],\"scale\":[2,1],\"rotation\":0}}"),
+                                data)));
   REQUIRE(moved);
   CHECK(moved->mesh.uv[3] == std::array<float, 2>{2.0f, 0.75f});
 
@@ -216,7 +236,8 @@ TEST_CASE("what a glTF promises is checked before it is believed", "[mesh]") {
   refused(changed("{\"mesh\":0}", "{\"mesh\":0,\"children\":[1,1]},{\"mesh\":0}"), "mesh.bad-gltf");
   refused(changed("{\"mesh\":0}", "{\"mesh\":0,\"scale\":[1e300,1,1]}"), "mesh.not-finite");
   refused(changed("{\"mesh\":0}", "{\"mesh\":0,\"translation\":[1e999,1,1]}"), "mesh.bad-gltf");
-  refused(changed("{\"version\":\"2.0\"}", "{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]"), "mesh.unsupported");
+  refused(changed("{\"version\":\"2.0\"}", "{\"version\":\"2.0\"},\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]"),
+          "mesh.unsupported");
   refused("{}", "mesh.bad-gltf");
   refused("[1,2,3]", "mesh.bad-gltf");
   refused("{\"asset\":{\"version\":\"2.0\"}}", "mesh.no-triangles");

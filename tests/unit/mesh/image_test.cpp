@@ -93,7 +93,8 @@ TEST_CASE("cut off and bent pictures are a picture or a diagnostic", "[mesh]") {
       auto bytes = whole;
       for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
       const auto image = decode_image(bytes, "x");
-      if (image) REQUIRE(image->rgba.size() == std::size_t{4} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height));
+      if (image)
+        REQUIRE(image->rgba.size() == std::size_t{4} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height));
     }
   }
 }

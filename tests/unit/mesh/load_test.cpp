@@ -46,7 +46,8 @@ TEST_CASE("endings may be in capitals, and a link is followed", "[mesh]") {
 }
 
 TEST_CASE("an OBJ keeps uv per corner by splitting vertices, with v from the top", "[mesh]") {
-  const auto loaded = load(Format::obj, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.5 0.25\nf 1/1 2/2 3/3\nf 1/4 3/3 4/1\n");
+  const auto loaded =
+      load(Format::obj, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.5 0.25\nf 1/1 2/2 3/3\nf 1/4 3/3 4/1\n");
   REQUIRE(loaded);
   const auto& mesh = loaded->mesh;
   CHECK(mesh.positions.size() == 5);
@@ -73,7 +74,9 @@ TEST_CASE("an OBJ takes colours and pictures from its MTL", "[mesh]") {
   folder.write("pic/red.png", encode_png({2, 1, {255, 0, 0, 255, 0, 0, 255, 255}}));
   folder.write("a.mtl", "newmtl one\nKd 0.1 0.2 0.3\nnewmtl two\nmap_Kd -s 1 1 1 pic/red.png\nnewmtl three\nmap_Kd gone.png\n");
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
-  const auto loaded = load_mesh(folder.write("a.obj", "mtllib a.mtl\n" + points + "usemtl one\nf 1/1 2/1 3/1\nusemtl two\nf 1/1 2/1 3/1\nusemtl three\nf 1/1 2/1 3/1\nusemtl two\nf 1/1 3/1 2/1\n"));
+  const auto loaded = load_mesh(folder.write(
+      "a.obj", "mtllib a.mtl\n" + points +
+                   "usemtl one\nf 1/1 2/1 3/1\nusemtl two\nf 1/1 2/1 3/1\nusemtl three\nf 1/1 2/1 3/1\nusemtl two\nf 1/1 3/1 2/1\n"));
   REQUIRE(loaded);
   const auto& mesh = loaded->mesh;
   REQUIRE(mesh.looks.size() == 4);
@@ -115,19 +118,21 @@ TEST_CASE("polygons are cut into triangles inside of them, also when they have i
 TEST_CASE("a PLY may have per-corner uv, a picture, strips of triangles and things nobody knows", "[mesh]") {
   const Folder folder("ply");
   folder.write("red.png", encode_png({1, 1, {255, 0, 0, 255}}));
-  const auto wedge = load_mesh(folder.write("wedge.ply",
-                                            "ply\nformat ascii 1.0\ncomment TextureFile red.png\nelement vertex 3\nproperty float x\nproperty float y\n"
-                                            "property float z\nelement face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
-                                            "element edge 1000000000\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 6 0 0.5 1 1 1 0\n"));
+  const auto wedge = load_mesh(
+      folder.write("wedge.ply",
+                   "ply\nformat ascii 1.0\ncomment TextureFile red.png\nelement vertex 3\nproperty float x\nproperty float y\n"
+                   "property float z\nelement face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                   "element edge 1000000000\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 1 6 0 0.5 1 1 1 0\n"));
   REQUIRE(wedge);
   CHECK(wedge->mesh.positions.size() == 4);
   CHECK(wedge->mesh.uv[0] == std::array<float, 2>{0, 1});
   CHECK(wedge->mesh.uv[3] == std::array<float, 2>{0, 0.5f});
   REQUIRE(wedge->mesh.looks.size() == 1);
   CHECK(wedge->mesh.looks[0].texture == 0);
-  const auto strips = load(Format::ply,
-                           "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
-                           "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 0 1 2\n");
+  const auto strips =
+      load(Format::ply,
+           "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
+           "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 0 1 2\n");
   REQUIRE(strips);
   CHECK(strips->mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {0, 1, 2}});
 }
@@ -148,7 +153,8 @@ TEST_CASE("broken files are told by name and fault", "[mesh]") {
     CHECK(loaded.error().front().message.find("file: ") == 0);
     CHECK(loaded.error().front().message.find(part) != std::string::npos);
   };
-  for (const auto format : {Format::obj, Format::ply, Format::off, Format::stl, Format::gltf, Format::glb}) refused(format, "", "mesh.truncated", "empty");
+  for (const auto format : {Format::obj, Format::ply, Format::off, Format::stl, Format::gltf, Format::glb})
+    refused(format, "", "mesh.truncated", "empty");
   refused(Format::obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "mesh.bad-index", "line 4");
   refused(Format::obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "mesh.bad-index");
   refused(Format::obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "mesh.bad-index");
@@ -171,18 +177,32 @@ TEST_CASE("broken files are told by name and fault", "[mesh]") {
   refused(Format::ply, "plx\n", "mesh.bad-header");
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\n" + xyz + "end_header\n0 0 0\n", "mesh.too-big", "4000000000");
-  refused(Format::ply, "ply\nformat binary_little_endian 1.0\nelement vertex 40000000\n" + xyz + "end_header\n0 0 0\n", "mesh.truncated", "promises 40000000");
+  refused(Format::ply, "ply\nformat binary_little_endian 1.0\nelement vertex 40000000\n" + xyz + "end_header\n0 0 0\n", "mesh.truncated",
+          "promises 40000000");
   refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 99999999999999999999\n" + xyz + "end_header\n", "mesh.bad-header");
   refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n", "mesh.bad-header", "no x, y, z");
-  refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 1\n", "mesh.bad-index");
-  refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 0.5\n", "mesh.bad-index");
-  refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n-3 0 0 0\n", "mesh.truncated");
-  refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n2000000000 0 0 0\n", "mesh.truncated", "2e+09");
+  refused(Format::ply,
+          "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz +
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 1\n",
+          "mesh.bad-index");
+  refused(Format::ply,
+          "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz +
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 0.5\n",
+          "mesh.bad-index");
+  refused(Format::ply,
+          "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz +
+              "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n-3 0 0 0\n",
+          "mesh.truncated");
+  refused(Format::ply,
+          "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz +
+              "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n2000000000 0 0 0\n",
+          "mesh.truncated", "2e+09");
   refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty list float int x\nend_header\n", "mesh.bad-header");
   refused(Format::ply, "ply\nformat ascii 1.0\nproperty float x\nend_header\n", "mesh.bad-header");
   refused(Format::ply, "ply\nformat strange 1.0\nend_header\n", "mesh.bad-header");
   refused(Format::stl, "solid x\n facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 0 0\n", "mesh.truncated");
-  refused(Format::stl, "solid x\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendfacet\nendsolid\n", "mesh.bad-header", "more than three");
+  refused(Format::stl, "solid x\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendfacet\nendsolid\n", "mesh.bad-header",
+          "more than three");
   refused(Format::stl, "solid x\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n", "mesh.bad-header");
   refused(Format::stl, "solid x\nendsolid x\n", "mesh.no-triangles");
   std::string stl(80, 'x');
@@ -214,7 +234,8 @@ TEST_CASE("files that are not there, no files, or of no known kind are told apar
   CHECK(code_of(load_mesh(folder("statue.obj"), small)) == "mesh.too-big");
   small = {};
   small.max_triangles = 3;
-  for (const auto& [name, file] : good_files()) CHECK(code_of(load_mesh_bytes(file.second, file.first, "file", "", small)) == "mesh.too-big");
+  for (const auto& [name, file] : good_files())
+    CHECK(code_of(load_mesh_bytes(file.second, file.first, "file", "", small)) == "mesh.too-big");
 }
 
 TEST_CASE("an OBJ reads no file outside its folder", "[mesh]") {
@@ -260,10 +281,18 @@ TEST_CASE("bent bytes are a mesh or a diagnostic, in bounded time", "[mesh]") {
       for (unsigned k = 0; k < flips; ++k) {
         const auto at = random() % bytes.size();
         switch (random() % 4) {
-          case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8)); break;
-          case 1: bytes[at] = static_cast<char>(random()); break;
-          case 2: bytes[at] = "0123456789-.e,[]{}\""[random() % 19]; break;
-          default: bytes.insert(at, 1, "0123456789-/ \n"[random() % 14]); break;
+          case 0:
+            bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
+            break;
+          case 1:
+            bytes[at] = static_cast<char>(random());
+            break;
+          case 2:
+            bytes[at] = "0123456789-.e,[]{}\""[random() % 19];
+            break;
+          default:
+            bytes.insert(at, 1, "0123456789-/ \n"[random() % 14]);
+            break;
         }
       }
       const auto loaded = load(file.first, bytes);

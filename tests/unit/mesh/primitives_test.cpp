@@ -40,7 +40,9 @@ TEST_CASE("primitives are closed, turned outwards and have the promised number o
   is_sound(make_torus_knot(3, 7, 1, 0.04, 900, 8), 0, 14400);
 }
 
-TEST_CASE("a torus knot of 26,022 triangles exists for the speed scene", "[mesh]") { is_sound(make_torus_knot(2, 3, 0.15, 0.04, 4337, 3), 0, 26022); }
+TEST_CASE("a torus knot of 26,022 triangles exists for the speed scene", "[mesh]") {
+  is_sound(make_torus_knot(2, 3, 0.15, 0.04, 4337, 3), 0, 26022);
+}
 
 TEST_CASE("volumes of primitives converge to their closed forms with the square of the step", "[mesh]") {
   const auto volume = [](const Mesh& mesh) { return examine(mesh, {.crossings = false}).volume; };

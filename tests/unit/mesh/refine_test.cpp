@@ -75,5 +75,6 @@ TEST_CASE("refinement that would need too much is refused, and the impossible en
   Mesh tiny;
   tiny.positions = {{1, 1, 1}, {1 + 9e-16, 1, 1}, {1, 1 + 9e-16, 1}};
   tiny.triangles = {{0, 1, 2}};
-  CHECK(refine(tiny, [](const auto&, const auto&) { return true; }, 1000000));
+  CHECK(refine(
+      tiny, [](const auto&, const auto&) { return true; }, 1000000));
 }
