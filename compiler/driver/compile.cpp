@@ -7,6 +7,7 @@
 #include "compiler/cover/unfold.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/light/atlas.h"
+#include "compiler/light/bake.h"
 #include "compiler/notation/print.h"
 
 namespace orbc::driver {
@@ -29,6 +30,16 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
   return result;
 }
 
+/// Plain colours, or, in a scene with lamps, the light of the room.
+Result<light::Atlas> make_atlas(const Opened& opened, const Executor& executor, const Progress& progress) {
+  if (!light::needs_bake(opened.scene, *opened.room)) return light::make_atlas(*opened.room);
+  const auto field = light::prepare_light(opened.scene, *opened.room, {}, executor);
+  if (!field) return field.error();
+  auto baked = light::bake(*opened.room, *field, {}, executor, progress);
+  if (!baked) return baked.error();
+  return std::move(baked->atlas);
+}
+
 }  // namespace
 
 Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
@@ -37,9 +48,12 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover, {.progress = progress});
   if (!copies) return located(copies.error(), opened.scene.span);
   report(progress, "atlas", 0, 0);
-  auto atlas = light::make_atlas(*opened.room);
+  auto atlas = make_atlas(opened, executor, progress);
   if (!atlas) return located(atlas.error(), opened.scene.span);
-  auto bent = bend::bend(atlas->room, atlas->uv, *copies, opened.eye, options.bend, executor, progress);
+  bend::BendOptions bending = options.bend;
+  const bool baked = light::needs_bake(opened.scene, *opened.room);
+  bending.colours_vary = bending.colours_vary || baked;
+  auto bent = bend::bend(atlas->room, atlas->uv, *copies, opened.eye, bending, executor, progress);
   if (!bent) return located(bent.error(), opened.scene.span);
 
   Compiled compiled;
@@ -48,6 +62,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   product.eye = opened.eye;
   product.background = opened.scene.cover.background;
   product.atlas = std::move(atlas->image);
+  product.blended_atlas = baked;
   product.copies = drawn(*copies, bent->copies, opened.eye);
   product.positions = std::move(bent->positions);
   product.uv = std::move(bent->uv);

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <iterator>
 
+#include "compiler/light/lamp.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/read.h"
@@ -40,6 +41,9 @@ Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
   auto furnished = place::furnish(opened.scene, *room);
   if (!furnished) return located(furnished.error(), opened.scene.span);
   append(opened.notes, located(furnished->warnings, opened.scene.span));
+  const auto lamps = light::hang_lamps(opened.scene, *room);
+  if (!lamps) return located(lamps.error(), opened.scene.span);
+  light::add_fixtures(opened.scene, *lamps, furnished->room);
   opened.room = std::make_unique<place::PlacedRoom>(std::move(furnished->room));
   const auto eye = place::make_eye(opened.scene, *opened.room);
   if (!eye) return located(eye.error(), opened.scene.camera.span.source ? opened.scene.camera.span : opened.scene.span);

@@ -29,6 +29,7 @@ struct Product {
   place::Eye eye;
   scene::Color background;
   mesh::Image atlas;                ///< sRGB, rows from top to bottom
+  bool blended_atlas = false;       ///< its texels are points of a smooth picture (baked light): to be looked up bilinearly
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 2>> uv;      ///< into the atlas, v from top to bottom (glTF)
   std::vector<std::uint32_t> indices;        ///< absolute, three a triangle

@@ -1,5 +1,6 @@
 #include "compiler/driver/trace.h"
 
+#include "compiler/light/shade.h"
 #include "compiler/render/draw.h"
 
 namespace orbc::driver {
@@ -7,11 +8,16 @@ namespace orbc::driver {
 render::Film trace(const Opened& opened, const TraceOptions& options, const Executor& executor, const Progress& progress) {
   report(progress, "preparing", 0, 0);
   const orbc::trace::TraceScene scene = orbc::trace::prepare(*opened.room, executor);
+  // The lamps have been hung once already, when the scene was opened: they hang.
+  const light::LightField light = light::prepare_light(opened.scene, *opened.room, {}, executor).value();
   render::DrawOptions draw;
+  draw.light = light.lit ? &light : nullptr;
   draw.samples = options.samples;
   draw.max_bounces = opened.scene.cover.max_bounces;
   draw.min_weight = opened.scene.cover.min_weight;
   draw.background = opened.scene.cover.background;
+  // The film is exposed as a whole; the background is shown as it is.
+  if (light.lit && light.exposure > 0) draw.background = (1 / light.exposure) * draw.background;
   return render::draw(scene, opened.eye, draw, executor, progress);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
+#include "compiler/light/shade.h"
 #include "compiler/place/eye.h"
 #include "compiler/render/film.h"
 #include "compiler/trace/follow.h"
@@ -12,6 +13,7 @@ struct DrawOptions {
   int max_bounces = 12;
   double min_weight = 0;
   int max_depth = 16;               ///< mirror and glass objects met on one path
+  const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
   scene::Color background;          ///< seen, as it is, where a path is cut off
 };
 

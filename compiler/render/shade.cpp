@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/light/shade.h"
+
 namespace orbc::render {
 namespace {
 
@@ -12,12 +14,6 @@ using scene::Color;
 using trace::Direction;
 
 constexpr double kLeastShare = 1.0 / 512;  // a branch of glass below it cannot change an 8-bit picture
-
-Color texel(const mesh::Image& image, double u, double v) {
-  const auto index = [](double t, int n) { return std::clamp(static_cast<int>(std::floor((t - std::floor(t)) * n)), 0, n - 1); };
-  const std::uint8_t* p = image.rgba.data() + 4 * (static_cast<std::size_t>(index(v, image.height)) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(index(u, image.width)));
-  return {scene::decode_srgb(p[0] / 255.0), scene::decode_srgb(p[1] / 255.0), scene::decode_srgb(p[2] / 255.0)};
-}
 
 // Share of light that a boundary of relative index `eta` (to / from) reflects, and the cosine of the refracted ray; 1 at total reflection.
 double fresnel(double cosine, double eta, double& refracted) {
@@ -44,6 +40,18 @@ struct Walker {
     return light(next, share, depth + 1, nullptr, nullptr);
   }
 
+  // What a surface that is neither mirror nor glass shows under the lamps.
+  Color lit(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color) {
+    const light::LightField& field = *options.light;
+    if (material.kind == scene::MaterialKind::emissive) return light::radiance_out(field, material, color, {});
+    const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
+    const bool shines = material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
+    Color out = light::radiance_out(field, material, color, light::irradiance(field, at));
+    if (shines) out = out + light::highlight(field, at, -point.arriving, material, color);
+    const double white = 1 / std::max(field.exposure, 1e-300);
+    return {std::min(out.r, white), std::min(out.g, white), std::min(out.b, white)};
+  }
+
   Color light(const trace::Path& path, double share, int depth, trace::SurfacePoint* first, bool* hit) {
     if (path.cut_off || path.hit.target == trace::Target::nothing) return options.background;
     const trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
@@ -51,9 +59,10 @@ struct Walker {
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
     const Color color = surface_color(*scene.room, point);
     if (!material) return path.weight * color;
-    if (material->kind == scene::MaterialKind::emissive) return material->emission * (path.weight * color);
+    const bool glows = material->kind == scene::MaterialKind::emissive;
+    if (glows && !options.light) return material->emission * (path.weight * color);
     const bool mirror = material->kind == scene::MaterialKind::mirror, glass = material->kind == scene::MaterialKind::glass;
-    if (!(mirror || glass) || depth >= options.max_depth) return path.weight * color;
+    if (!(mirror || glass) || depth >= options.max_depth) return path.weight * (options.light ? lit(path, point, *material, color) : color);
 
     const double cosine = std::clamp(-trace::inner(scene.room->room.space, point.arriving, point.normal), 0.0, 1.0);
     const Direction reflected = point.arriving + 2 * cosine * point.normal;
@@ -76,10 +85,13 @@ struct Walker {
 }  // namespace
 
 Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point) {
-  if (point.look < 0) return point.color;
-  const place::Look& look = room.looks[static_cast<std::size_t>(point.look)];
-  if (look.texture < 0) return point.color;
-  return look.color * texel(room.textures[static_cast<std::size_t>(look.texture)], point.uv[0], point.uv[1]);
+  light::SurfaceKey key;
+  key.look = point.look, key.color = point.color;
+  key.uv[0] = point.uv[0], key.uv[1] = point.uv[1];
+  const place::PlacedMesh* part = point.part >= 0 ? &room.parts[static_cast<std::size_t>(point.part)] : nullptr;
+  key.solid = part && !part->pattern_position.empty();
+  key.pattern_position = point.pattern_position;
+  return light::surface_albedo(room, key);
 }
 
 Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options) {

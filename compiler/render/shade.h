@@ -11,7 +11,7 @@ struct Seen {
   trace::SurfacePoint surface;      ///< there, if hit
 };
 
-/// Radiance along a ray: plain colours (scenes without lamps), mirrors and glass among the objects followed to `max_depth`.
+/// Radiance along a ray: plain colours in scenes without lamps, else their light (DrawOptions::light); mirrors and glass among the objects followed to `max_depth`.
 [[nodiscard]] Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options);
 
 /// The colour of a surface point without any light: flat, checker cell, or texel (nearest) times colour.

@@ -253,7 +253,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
       json.end_array().end_object();
     }
     json.end_array();
-    write_materials(json, layout, tints, uris.atlas, options.interpolate);
+    write_materials(json, layout, tints, uris.atlas, options.interpolate || product.blended_atlas);
     write_accessors(json, layout);
     write_buffers(json, layout, uris.bin);
     if (!options.nodes_per_copy) write_ranges(json, product, layout);

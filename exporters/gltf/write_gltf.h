@@ -10,7 +10,7 @@ struct GltfOptions {
   std::string name = "scene";   ///< the output's stem: names of the nodes and, unless `binary`, NAME.bin and NAME-atlas.png beside it
   bool binary = true;           ///< one GLB; false: .gltf with .bin and .png beside it
   bool nodes_per_copy = false;  ///< a node, mesh and material a copy, to be clicked in an editor; slow to import from 5,000 copies on
-  bool interpolate = false;     ///< bilinear instead of the nearest texel
+  bool interpolate = false;     ///< bilinear instead of the nearest texel; always so for a blended atlas
 };
 
 /// Writes the product as glTF 2.0: unlit triangles that any viewer draws with straight rays.

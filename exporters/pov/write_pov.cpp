@@ -69,7 +69,7 @@ void write_atlas_pigment(Pen& pen, const driver::Product& product, const std::st
   if (product.atlas.rgba.empty()) {
     pen << "rgb 1";
   } else {
-    pen << "uv_mapping image_map { png \"" << atlas_name << "\"" << (options.interpolate ? " interpolate 2" : "") << " }";
+    pen << "uv_mapping image_map { png \"" << atlas_name << "\"" << (options.interpolate || product.blended_atlas ? " interpolate 2" : "") << " }";
   }
   pen << " }\n";
 }

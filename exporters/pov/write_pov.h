@@ -9,7 +9,7 @@ namespace orbc::pov {
 struct PovOptions {
   std::string name = "scene";   ///< the output's stem: the atlas stands beside it as NAME-atlas.png
   bool inline_atlas = false;    ///< for pipes: the atlas rides along as base64 in a comment, scripts/povray-pipe unpacks it
-  bool interpolate = false;     ///< bilinear in linear light instead of the nearest texel
+  bool interpolate = false;     ///< bilinear in linear light instead of the nearest texel; always so for a blended atlas
 };
 
 /// Writes the product as a scene of POV-Ray 3.7 that an unmodified povray draws with straight rays and exact colours.

@@ -1,0 +1,94 @@
+#include "compiler/light/albedo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace orbc::light {
+namespace {
+
+using geometry::Vector3;
+using scene::Color;
+using scene::Pattern;
+
+// A well mixed 32-bit number of a lattice point (the finaliser of MurmurHash3; Appleby, public domain).
+double lattice(std::int64_t x, std::int64_t y, std::int64_t z) {
+  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^ static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
+  h ^= h >> 16, h *= 0x85ebca6bu, h ^= h >> 13, h *= 0xc2b2ae35u, h ^= h >> 16;
+  return h * (1.0 / 4294967296.0);
+}
+
+double smooth(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
+
+// Value noise, −1…1, twice differentiable.
+double noise(const Vector3& p) {
+  const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
+  const double u = smooth(p.x - fx), v = smooth(p.y - fy), w = smooth(p.z - fz);
+  const auto x = static_cast<std::int64_t>(fx), y = static_cast<std::int64_t>(fy), z = static_cast<std::int64_t>(fz);
+  const auto mix = [](double a, double b, double t) { return a + t * (b - a); };
+  const auto row = [&](std::int64_t j, std::int64_t k) { return mix(lattice(x, j, k), lattice(x + 1, j, k), u); };
+  return 2 * mix(mix(row(y, z), row(y + 1, z), v), mix(row(y, z + 1), row(y + 1, z + 1), v), w) - 1;
+}
+
+double turbulence(Vector3 p, int octaves) {
+  double sum = 0, size = 1;
+  for (int i = 0; i < octaves; ++i, size /= 2) {
+    sum += size * noise(p);
+    p = 2.03 * p + Vector3{17.1, 5.7, 31.3};
+  }
+  return sum;
+}
+
+double step(double from, double to, double t) {
+  t = std::clamp((t - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+Color texel(const mesh::Image& image, double u, double v) {
+  const auto index = [](double t, int n) { return std::clamp(static_cast<int>(std::floor((t - std::floor(t)) * n)), 0, n - 1); };
+  const std::uint8_t* p = image.rgba.data() + 4 * (static_cast<std::size_t>(index(v, image.height)) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(index(u, image.width)));
+  return {scene::decode_srgb(p[0] / 255.0), scene::decode_srgb(p[1] / 255.0), scene::decode_srgb(p[2] / 255.0)};
+}
+
+bool is_solid(Pattern pattern) { return pattern == Pattern::marble || pattern == Pattern::wood || pattern == Pattern::granite; }
+
+}  // namespace
+
+double solid_pattern(Pattern pattern, const Vector3& at, double cell) {
+  const Vector3 p = (1 / cell) * at;
+  switch (pattern) {
+    case Pattern::marble: {
+      const double sheet = p.x + 0.6 * p.y + 0.8 * p.z + 1.3 * turbulence(1.1 * p, 5);
+      const double vein = 1 - std::fabs(std::sin(3.14159265358979 * sheet));
+      return std::clamp(0.75 * step(0.72, 1, vein) + 0.25 * step(0.1, 0.9, vein) * step(-0.4, 0.8, noise(2.3 * p)), 0.0, 1.0);
+    }
+    case Pattern::wood: {
+      const Vector3 bent = p + 0.18 * Vector3{noise(1.3 * p), noise(1.3 * p + Vector3{7.7, 3.1, 9.2}), 0};
+      const double ring = 4 * std::hypot(bent.x + 0.9, bent.y + 0.4 + 0.08 * p.z), within = ring - std::floor(ring);
+      const double grain = 0.12 * noise({28 * p.x, 28 * p.y, 2 * p.z});
+      return std::clamp(step(0.15, 0.85, within) * (1 - step(0.9, 1, within)) + grain, 0.0, 1.0);
+    }
+    case Pattern::granite: {
+      const double grains = noise(6 * p) + 0.7 * noise(13 * p + Vector3{3.3, 8.1, 1.7}) + 0.45 * noise(29 * p + Vector3{9.4, 2.6, 5.5});
+      return step(-0.35, 0.75, grains);
+    }
+    default: return 0;
+  }
+}
+
+bool varies(const place::PlacedRoom& room, int look, bool solid) {
+  if (look < 0) return false;
+  const place::Look& l = room.looks[static_cast<std::size_t>(look)];
+  return l.texture >= 0 || (solid && is_solid(l.material.pattern));
+}
+
+Color surface_albedo(const place::PlacedRoom& room, const SurfaceKey& key) {
+  if (key.look < 0) return key.color;
+  const place::Look& look = room.looks[static_cast<std::size_t>(key.look)];
+  if (look.texture >= 0) return look.color * texel(room.textures[static_cast<std::size_t>(look.texture)], key.uv[0], key.uv[1]);
+  if (!key.solid || !is_solid(look.material.pattern)) return key.color;
+  const double t = solid_pattern(look.material.pattern, key.pattern_position, look.material.cell);
+  return (1 - t) * look.material.color + t * look.material.second;
+}
+
+}  // namespace orbc::light

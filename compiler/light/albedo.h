@@ -1,0 +1,26 @@
+#pragma once
+#include "compiler/place/placed.h"
+
+namespace orbc::light {
+
+/// What a surface is looked up by at one of its points.
+struct SurfaceKey {
+  int look = -1;                          ///< index into PlacedRoom::looks; −1: none
+  scene::Color color{0.8, 0.8, 0.8};      ///< the look's flat colour (of checkers the cell's)
+  double uv[2] = {0, 0};                  ///< textures, in repeats
+  bool solid = false;                     ///< whether `pattern_position` means something
+  geometry::Vector3 pattern_position;     ///< the object's own coordinates
+};
+
+/// The colour of a surface point without any light: flat, texel (nearest) times colour, or solid pattern. One function for both roads.
+[[nodiscard]] scene::Color surface_albedo(const place::PlacedRoom& room, const SurfaceKey& key);
+
+/// Whether the colour changes inside triangles of this look, on a part with or without pattern positions; and over which length it does.
+[[nodiscard]] bool varies(const place::PlacedRoom& room, int look, bool solid);
+
+/// The solid patterns by themselves: how much of the second colour stands at a point, 0…1; `cell` is their size.
+/// marble: veins where a sine over sheets, bent by turbulence, comes near its turns; wood: rings around a trunk's axis; granite: grains of several octaves.
+/// Source: Perlin, An image synthesizer (1985); value noise on an integer lattice hashed without tables, so that every machine sees the same stone.
+[[nodiscard]] double solid_pattern(scene::Pattern pattern, const geometry::Vector3& at, double cell);
+
+}  // namespace orbc::light

@@ -1,0 +1,308 @@
+// Light changes slowly except at shadow borders, so it is asked where it changes: adaptive sampling of each block (Whitted, An improved illumination model for
+// shaded display, 1980, §4, on grids instead of pixels). Vertices are lit once and shared by all blocks that meet there. What is interpolated is irradiance, in
+// linear light; what is compared is the encoded picture. Textures and solid patterns are then looked up texel by texel.
+#include "compiler/light/bake.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "compiler/light/blocks.h"
+
+namespace orbc::light {
+namespace {
+
+using place::PlacedMesh;
+using scene::Color;
+using Texel = std::array<std::uint8_t, 4>;
+
+constexpr double kContrast = 5;     // steps of 1/255 between neighbouring points that ask for a point between them
+constexpr int kMaxLevel = 11;       // of a block: 2049 texels a side
+constexpr double kGrains = 8;       // texels per cell of a solid pattern
+
+int level_of(double cells) { return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel); }
+
+struct Part {
+  const place::PlacedRoom& room;
+  const LightField& field;
+  const BakeOptions& options;
+  const PlacedMesh& mesh;
+  const PartNormals& normals;
+  std::vector<Color> at_vertex;     ///< irradiance at normals.vertices
+};
+
+/// A block on its way: irradiance on a grid, every point of it known in the end.
+struct Grid {
+  int w = 1, h = 1;                 ///< points
+  std::vector<Color> light;
+  std::vector<std::uint8_t> rough;  ///< a mean of its neighbours would have missed it, or one of them
+  std::uint64_t asked = 0;
+};
+
+struct Finished {
+  Box box;
+  std::vector<Texel> texels;
+  std::uint64_t asked = 0;
+};
+
+class BlockBaker {
+ public:
+  BlockBaker(const Part& part, const Block& block) : part_(part), block_(block) {
+    const int look = part.mesh.look[block.first];
+    varies_ = varies(part.room, look, !part.mesh.pattern_position.empty());
+    material_ = &part.room.looks[static_cast<std::size_t>(look)].material;
+    plain_ = part.room.looks[static_cast<std::size_t>(look)].color;
+  }
+
+  Finished run() {
+    const int a0 = level_of(block_.length_u * part_.options.coarse), b0 = level_of(block_.length_v * part_.options.coarse);
+    const double fine = varies_ ? pattern_density() : part_.options.fine;
+    const int a = std::max(a0, level_of(block_.length_u * fine)), b = std::max(b0, level_of(block_.length_v * fine));
+    grid_.w = (1 << a) + 1, grid_.h = (1 << b) + 1;
+    grid_.light.resize(static_cast<std::size_t>(grid_.w) * grid_.h);
+    grid_.rough.assign(grid_.light.size(), 0);
+    int su = 1 << (a - a0), sv = 1 << (b - b0);
+    for (int j = 0; j < grid_.h; j += sv)
+      for (int i = 0; i < grid_.w; i += su)
+        if (valid(i, j)) ask(i, j);
+    int used_u = su, used_v = sv;
+    while (su > 1 || sv > 1) {
+      const int nu = std::max(1, su / 2), nv = std::max(1, sv / 2);
+      if (refine(su, sv, nu, nv)) used_u = nu, used_v = nv;
+      su = nu, sv = nv;
+    }
+    return varies_ ? finish(1, 1) : finish(used_u, used_v);
+  }
+
+ private:
+  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * grid_.w + i; }
+  bool valid(int i, int j) const {
+    return block_.second >= 0 || static_cast<std::int64_t>(i) * (grid_.h - 1) + static_cast<std::int64_t>(j) * (grid_.w - 1) <= static_cast<std::int64_t>(grid_.w - 1) * (grid_.h - 1);
+  }
+  InTriangle place(int i, int j) const { return in_triangle(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1)); }
+
+  double pattern_density() const {
+    const place::Look& look = part_.room.looks[part_.mesh.look[block_.first]];
+    if (look.texture < 0) return std::clamp(kGrains / std::max(material_->cell, 1e-6) * 4, part_.options.fine, part_.options.texture_fine);
+    return part_.options.texture_fine;
+  }
+
+  void ask(int i, int j) {
+    ++grid_.asked;
+    Color& light = grid_.light[index(i, j)];
+    if (material_->kind == scene::MaterialKind::emissive) return;
+    const bool corner = (i == 0 || i == grid_.w - 1) && (j == 0 || j == grid_.h - 1);
+    if (corner) {
+      const bool far_u = i > 0, far_v = j > 0;
+      const std::size_t t = far_u && far_v ? static_cast<std::size_t>(block_.second) : block_.first;
+      const int k = far_u && far_v ? block_.second_turn[0] : block_.turn[far_u ? 1 : far_v ? 2 : 0];
+      light = part_.at_vertex[part_.normals.corners[t][k]];
+      return;
+    }
+    const InTriangle at = place(i, j);
+    light = irradiance(part_.field, light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b));
+  }
+
+  std::array<double, 3> shown(const Color& light) const {
+    const Color c = part_.field.exposure * radiance_out(part_.field, *material_, plain_, light);
+    return {255 * scene::encode_srgb(c.r), 255 * scene::encode_srgb(c.g), 255 * scene::encode_srgb(c.b)};
+  }
+  double difference(const Color& a, const Color& b) const {
+    if (a == b) return 0;
+    const auto x = shown(a), y = shown(b);
+    return std::max({std::fabs(x[0] - y[0]), std::fabs(x[1] - y[1]), std::fabs(x[2] - y[2])});
+  }
+
+  // Fills the points between those of distance (su, sv); whether any of them had to be lit.
+  bool refine(int su, int sv, int nu, int nv) {
+    bool any = false;
+    std::vector<std::uint8_t> rough(grid_.rough.size(), 0);
+    for (int j = 0; j < grid_.h; j += nv)
+      for (int i = 0; i < grid_.w; i += nu) {
+        const bool odd_u = i % su != 0, odd_v = j % sv != 0;
+        if ((!odd_u && !odd_v) || !valid(i, j)) continue;
+        const int i0 = i - i % su, i1 = odd_u ? i0 + su : i0, j0 = j - j % sv, j1 = odd_v ? j0 + sv : j0;
+        std::array<std::size_t, 4> parents{index(i0, j1), index(i1, j0), index(i0, j0), index(i1, j1)};
+        const int count = odd_u && odd_v && valid(i1, j1) ? 4 : 2;
+        if (!odd_u || !odd_v) parents[0] = index(i0, j0), parents[1] = index(i1, j1);
+        any = fill(i, j, parents, count, rough) || any;
+      }
+    grid_.rough = std::move(rough);
+    return any;
+  }
+
+  bool fill(int i, int j, const std::array<std::size_t, 4>& parents, int count, std::vector<std::uint8_t>& rough) {
+    Color mean;
+    bool needed = false;
+    for (int k = 0; k < count; ++k) {
+      mean = mean + (1.0 / count) * grid_.light[parents[k]];
+      needed = needed || grid_.rough[parents[k]];
+    }
+    for (int k = 0; k + 1 < count + (count & 1) && !needed; k += 2) needed = difference(grid_.light[parents[k]], grid_.light[parents[k + 1]]) > kContrast;
+    Color& light = grid_.light[index(i, j)];
+    light = mean;
+    if (!needed) return false;
+    ask(i, j);
+    if (difference(light, mean) <= part_.options.tolerance) return true;
+    rough[index(i, j)] = 1;
+    for (int k = 0; k < count; ++k) rough[parents[k]] = 1;
+    return true;
+  }
+
+  Color albedo(int i, int j) const {
+    const InTriangle at = place(i, j);
+    SurfaceKey key;
+    key.look = part_.mesh.look[at.triangle];
+    key.color = plain_;
+    const mesh::Triangle& t = part_.mesh.triangles[at.triangle];
+    for (int k = 0; k < 3; ++k) {
+      if (!part_.mesh.uv.empty())
+        for (int c = 0; c < 2; ++c) key.uv[c] += at.b[k] * part_.mesh.uv[t[k]][c];
+      if (!part_.mesh.pattern_position.empty()) key.pattern_position = key.pattern_position + at.b[k] * part_.mesh.pattern_position[t[k]];
+    }
+    // Uv lie in [0, 1]: 1 is the last texel of this repeat, not the first of the next.
+    for (double& c : key.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
+    key.solid = !part_.mesh.pattern_position.empty();
+    return surface_albedo(part_.room, key);
+  }
+
+  Finished finish(int step_u, int step_v) {
+    Finished done;
+    done.asked = grid_.asked;
+    done.box.width = (grid_.w - 1) / step_u + 1, done.box.height = (grid_.h - 1) / step_v + 1;
+    const int w = done.box.width, h = done.box.height;
+    std::vector<Color> shown_at(static_cast<std::size_t>(w) * h);
+    for (int j = 0; j < h; ++j)
+      for (int i = 0; i < w; ++i) {
+        Color& c = shown_at[static_cast<std::size_t>(j) * w + i];
+        if (valid(i * step_u, j * step_v)) {
+          c = part_.field.exposure * radiance_out(part_.field, *material_, varies_ ? albedo(i * step_u, j * step_v) : plain_, grid_.light[index(i * step_u, j * step_v)]);
+        } else {  // a single triangle beyond its long side, which the lookup only touches one texel deep
+          const auto at = [&](int x, int y) { return shown_at[static_cast<std::size_t>(y) * w + x]; };
+          c = at(i - 1, j) + at(i, j - 1) + -1.0 * at(i - 1, j - 1);
+          c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
+        }
+      }
+    done.texels.reserve(shown_at.size());
+    for (const Color& c : shown_at) {
+      const auto code = [](double v) { return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
+      done.texels.push_back({code(c.r), code(c.g), code(c.b), 255});
+    }
+    return done;
+  }
+
+  const Part& part_;
+  const Block& block_;
+  Grid grid_;
+  const scene::Material* material_ = nullptr;
+  Color plain_;
+  bool varies_ = false;
+};
+
+void light_vertices(Part& part, const Executor& executor, const Progress& progress) {
+  constexpr std::size_t kChunk = 32;
+  part.at_vertex.resize(part.normals.vertices.size());
+  std::atomic<std::uint64_t> done{0};
+  executor((part.at_vertex.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t end = std::min((chunk + 1) * kChunk, part.at_vertex.size());
+    for (std::size_t i = chunk * kChunk; i < end; ++i) part.at_vertex[i] = irradiance(part.field, light_point(part.room, part.mesh, part.normals.vertices[i]));
+    if (chunk % 16 == 0) report(progress, "baking", done.fetch_add(16 * kChunk), part.at_vertex.size(), "points");
+  });
+}
+
+// The part with vertices of its own for every block, and where they lie in the atlas.
+void rebuild(const std::vector<Block>& blocks, const Finished* finished, int width, int height, PlacedMesh& part, std::vector<std::array<float, 2>>& uv) {
+  const PlacedMesh own = part;
+  part.floor.clear(), part.z.clear(), part.uv.clear(), part.pattern_position.clear();
+  const auto add = [&](std::uint32_t v, double x, double y) {
+    part.floor.push_back(own.floor[v]);
+    part.z.push_back(own.z[v]);
+    uv.push_back({static_cast<float>(x / width), static_cast<float>(y / height)});
+    return static_cast<std::uint32_t>(part.floor.size() - 1);
+  };
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = blocks[i];
+    const Box& box = finished[i].box;
+    const double x0 = box.x + 0.5, y0 = box.y + 0.5, x1 = box.x + box.width - 0.5, y1 = box.y + box.height - 0.5;
+    const mesh::Triangle& first = own.triangles[block.first];
+    const std::uint32_t v00 = add(first[block.turn[0]], x0, y0), v10 = add(first[block.turn[1]], x1, y0), v01 = add(first[block.turn[2]], x0, y1);
+    mesh::Triangle& t = part.triangles[block.first];
+    t[block.turn[0]] = v00, t[block.turn[1]] = v10, t[block.turn[2]] = v01;
+    if (block.second < 0) continue;
+    mesh::Triangle& s = part.triangles[static_cast<std::size_t>(block.second)];
+    const std::uint32_t v11 = add(own.triangles[static_cast<std::size_t>(block.second)][block.second_turn[0]], x1, y1);
+    s[block.second_turn[0]] = v11, s[block.second_turn[1]] = v01, s[block.second_turn[2]] = v10;
+  }
+}
+
+Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks, const std::vector<Finished>& finished, int max_side) {
+  std::size_t at = 0, worst = 0;
+  std::uint64_t most = 0;
+  for (std::size_t p = 0; p < blocks.size(); ++p) {
+    std::uint64_t texels = 0;
+    for (std::size_t i = 0; i < blocks[p].size(); ++i, ++at) texels += finished[at].texels.size();
+    if (texels > most) most = texels, worst = p;
+  }
+  return make_error("light.atlas-too-large", fmt::format("the baked light of this scene does not fit into a picture of {0}×{0} pixels", max_side),
+                    fmt::format("most of it, {} texels, is on \"{}\"; set `bake: {{texel: …}}` to a coarser size, or `bake: {{quality: draft}}`", most, room.parts[worst].name));
+}
+
+}  // namespace
+
+bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
+  if (!scene.lamps.empty()) return true;
+  return std::any_of(room.parts.begin(), room.parts.end(), [&](const PlacedMesh& part) {
+    return std::any_of(part.look.begin(), part.look.end(), [&](std::uint16_t look) { return room.looks[look].texture < 0 && varies(room, look, !part.pattern_position.empty()); });
+  });
+}
+
+Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const BakeOptions& options, const Executor& executor, const Progress& progress) {
+  std::vector<std::vector<Block>> blocks;
+  std::vector<Finished> finished;
+  std::vector<std::size_t> first;
+  Baked baked;
+  for (std::size_t p = 0; p < room.parts.size(); ++p) {
+    const PartNormals own = p < field.normals.size() ? PartNormals{} : part_normals(room, room.parts[p]);
+    Part part{room, field, options, room.parts[p], p < field.normals.size() ? field.normals[p] : own, {}};
+    light_vertices(part, executor, progress);
+    blocks.push_back(blocks_of(room, static_cast<std::uint32_t>(p), part.normals));
+    first.push_back(finished.size());
+    finished.resize(finished.size() + blocks.back().size());
+    std::atomic<std::uint64_t> done{0};
+    executor(blocks.back().size(), [&](std::size_t i) {
+      finished[first[p] + i] = BlockBaker(part, blocks[p][i]).run();
+      report(progress, "baking", done.fetch_add(1), blocks[p].size(), "blocks");
+    });
+    baked.counts.points += part.at_vertex.size();
+  }
+  std::vector<Box> boxes;
+  for (const Finished& f : finished) {
+    boxes.push_back(f.box);
+    baked.counts.points += f.asked;
+    baked.counts.texels += f.texels.size();
+  }
+  const auto size = pack(boxes, options.max_side);
+  if (!size) return too_large(room, blocks, finished, options.max_side);
+  Atlas& atlas = baked.atlas;
+  atlas.image.width = (*size)[0], atlas.image.height = (*size)[1];
+  atlas.image.rgba.assign(4 * static_cast<std::size_t>(atlas.image.width) * static_cast<std::size_t>(atlas.image.height), 128);
+  for (std::size_t i = 3; i < atlas.image.rgba.size(); i += 4) atlas.image.rgba[i] = 255;
+  for (std::size_t f = 0; f < finished.size(); ++f) {
+    Box& box = finished[f].box;
+    box = boxes[f];
+    for (int y = 0; y < box.height; ++y)
+      for (int x = 0; x < box.width; ++x) {
+        const Texel& texel = finished[f].texels[static_cast<std::size_t>(y) * box.width + x];
+        std::copy(texel.begin(), texel.end(), atlas.image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
+      }
+  }
+  atlas.room = room;
+  atlas.uv.resize(room.parts.size());
+  for (std::size_t p = 0; p < room.parts.size(); ++p)
+    rebuild(blocks[p], finished.data() + first[p], atlas.image.width, atlas.image.height, atlas.room.parts[p], atlas.uv[p]);
+  return baked;
+}
+
+}  // namespace orbc::light

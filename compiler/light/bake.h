@@ -1,0 +1,40 @@
+#pragma once
+#include "compiler/base/executor.h"
+#include "compiler/base/progress.h"
+#include "compiler/light/atlas.h"
+#include "compiler/light/shade.h"
+
+namespace orbc::light {
+
+/// How finely light is baked: lengths are intrinsic, per unit of length of the room.
+struct BakeOptions {
+  double coarse = 32;               ///< points per unit that are always lit: smaller shadows may be missed
+  double fine = 160;                ///< points per unit where light changes (shadow borders)
+  double texture_fine = 400;        ///< the same where a texture or a solid pattern does
+  double tolerance = 1.5;           ///< in steps of 1/255 of the picture: what lies between points may be off by
+  int max_side = 16384;             ///< pixels of the atlas
+};
+
+/// Whether the plain colours of `make_atlas` do not suffice: there are lamps, or solid patterns (which a field without lamps shows unlit).
+[[nodiscard]] bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room);
+
+/// What was baked, for reports.
+struct BakeCounts {
+  std::uint64_t points = 0;         ///< surface points that were lit
+  std::uint64_t texels = 0;
+};
+
+/// Bakes the light of a room into one picture.
+/// Makes:       for every two neighbouring triangles of one look (or a single one) a block of texels, a grid from corner to corner; texel centres lie on the corners,
+///              so bilinear lookup never leaves the block, and neighbours that share an edge agree on it. A single triangle's texels beyond its long side continue
+///              it: c₁ + c₂ − c₀, so that the lookup is linear up to the border. A grid is as fine as the light on it asks for: it starts coarse, and between points
+///              that differ, or near points that a mean would have missed, it is lit again at half the distance. Same bytes for any executor.
+/// In:          the field that prepare_light made for this room.
+/// Diagnostics: light.atlas-too-large; the hint names what makes it smaller.
+struct Baked {
+  Atlas atlas;
+  BakeCounts counts;
+};
+[[nodiscard]] Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const BakeOptions& options, const Executor& executor, const Progress& progress = {});
+
+}  // namespace orbc::light

@@ -1,0 +1,38 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compiler/light/normals.h"
+
+namespace orbc::light {
+
+/// Two neighbouring triangles of one look, or one, as a square of the atlas: corners 00, 10, 01 are those of `first`, 11 is the other one of `second`.
+struct Block {
+  std::uint32_t part = 0;
+  std::uint32_t first = 0;
+  int second = -1;                             ///< −1: a single triangle
+  std::array<int, 3> turn{0, 1, 2};            ///< which corners of `first` stand at 00, 10, 01
+  std::array<int, 3> second_turn{0, 1, 2};     ///< which of `second` stand at 11, 01, 10
+  double length_u = 0, length_v = 0;           ///< of its sides
+};
+
+/// Pairs the triangles of a part: across their longest edge where light may be interpolated over it (same look, same normals at its ends).
+[[nodiscard]] std::vector<Block> blocks_of(const place::PlacedRoom& room, std::uint32_t part, const PartNormals& normals);
+
+/// Where (u, v) of the square lies: the triangle and its barycentric coordinates, in the triangle's own order.
+struct InTriangle {
+  std::size_t triangle = 0;
+  std::array<double, 3> b{};
+};
+[[nodiscard]] InTriangle in_triangle(const Block& block, double u, double v);
+
+/// A rectangle to be packed.
+struct Box {
+  int width = 0, height = 0, x = 0, y = 0;
+};
+/// Packs by shelves, tallest first, into a picture whose width is a power of two. Makes: its size, or nothing if it would exceed max_side.
+[[nodiscard]] std::optional<std::array<int, 2>> pack(std::vector<Box>& boxes, int max_side);
+
+}  // namespace orbc::light
