@@ -149,6 +149,12 @@ TEST_CASE("a panorama's camera says so in its extras", "[gltf]") {
   CHECK(contains(split(gltf::write_gltf(product)[0].bytes).json, R"("extras":{"orbc_projection":"panorama","orbc_width":80,)"));
 }
 
+TEST_CASE("an atlas of baked light is looked up bilinearly", "[gltf]") {
+  driver::Product product = test::two_squares();
+  product.blended_atlas = true;
+  CHECK(contains(split(gltf::write_gltf(product)[0].bytes).json, R"("samplers":[{"magFilter":9729,"minFilter":9729,)"));
+}
+
 TEST_CASE("weights outside [0, 1] are clamped, as the format demands", "[gltf]") {
   driver::Product product = test::two_squares();
   product.copies[1].tint = {1.5, -0.25, 1};

@@ -150,6 +150,14 @@ TEST_CASE("a product without atlas is white times its weights", "[pov]") {
   CHECK(contains(files[0].bytes, "#declare OrbcAtlas = pigment { rgb 1 }"));
 }
 
+TEST_CASE("an atlas of baked light is looked up bilinearly, flat colours are not", "[pov]") {
+  driver::Product product = test::two_squares();
+  CHECK_FALSE(contains(pov::write_pov(product)[0].bytes, "interpolate"));
+  CHECK(contains(pov::write_pov(product, {.interpolate = true})[0].bytes, "-atlas.png\" interpolate 2 }"));
+  product.blended_atlas = true;
+  CHECK(contains(pov::write_pov(product)[0].bytes, "-atlas.png\" interpolate 2 }"));
+}
+
 TEST_CASE("titles and names cannot break out of comments and strings", "[pov]") {
   driver::Product product = test::two_squares();
   product.title = "*22\n#error \"x\"\r*/";
