@@ -30,6 +30,15 @@ struct Strip {
     const Ambient normal{geometry::curvature(space) * line.w, line.x, line.y};
     return geometry::normalised_point(space, geometry::cos_k(space, d) * geometry::point_along(space, start, along, s) + geometry::sin_k(space, d) * normal);
   }
+  /// (s, depth, z) of a position: the own coordinates of what is built in the strip.
+  [[nodiscard]] geometry::Vector3 place_of(const Position& p) const {
+    const double k = geometry::curvature(space);
+    const auto form = [k](const Ambient& a, const Ambient& b) { return k * a.w * b.w + a.x * b.x + a.y * b.y; };
+    // ⟨X, along⟩ = cosκ(d) sinκ(s) and κ⟨X, start⟩ = cosκ(d) cosκ(s).
+    const double sine = form(along, k == 0 ? p.floor - start : static_cast<const Ambient&>(p.floor)), cosine = k == 0 ? 1 : k * form(start, p.floor);
+    const double s = space == Space::spherical ? std::atan2(sine, cosine) : geometry::atan_k(space, sine / cosine);
+    return {s, geometry::signed_distance(space, line, p.floor), p.z};
+  }
 };
 
 /// Quads over shared vertices; a vertex is known by its place in the strip.
@@ -68,7 +77,8 @@ std::vector<double> steps(Space space, double from, double to) {
 
 void clip(Space space, Net& net, const Line& line, int side) { net.pieces = cut(space, net, net.pieces, line, side).left; }
 
-PlacedMesh to_mesh(Space space, Net net) {
+PlacedMesh to_mesh(const Strip& strip, Net net) {
+  const Space space = strip.space;
   PlacedMesh mesh;
   for (const Net::Piece& piece : net.pieces)
     for (const mesh::Triangle& t : triangulate(space, net, piece)) mesh.triangles.push_back(t);
@@ -80,6 +90,7 @@ PlacedMesh to_mesh(Space space, Net net) {
         renamed[v] = static_cast<std::uint32_t>(mesh.floor.size());
         mesh.floor.push_back(net.vertices[v].floor);
         mesh.z.push_back(net.vertices[v].z);
+        mesh.pattern_position.push_back(strip.place_of(net.vertices[v]));
       }
       v = renamed[v];
     }
@@ -98,12 +109,21 @@ bool meets(const room::Room& room, const std::vector<FrameSpec>& frames, const F
   });
 }
 
+bool is_closed(const room::Room& room, const FrameSpec& f) {
+  return room.corners.empty() && f.span[0] <= 0 && f.span[1] >= room.walls[f.wall].length;   // a whole great circle has no ends
+}
+
+Strip strip_of(const room::Room& room, const FrameSpec& f) {
+  const room::Wall& wall = room.walls[f.wall];
+  return {room.space, wall.start, wall.along, wall.line, is_closed(room, f) ? wall.length : 0};
+}
+
 // Front, and the inner and outer flanks, of one frame, as large as it would be without the room around it.
 Net bare_frame(const room::Room& room, double height, const FrameSpec& f) {
   const room::Wall& wall = room.walls[f.wall];
   const double half = f.width / 2;
-  const bool closed = room.corners.empty() && f.span[0] <= 0 && f.span[1] >= wall.length;   // a whole great circle has no ends
-  const Strip strip{room.space, wall.start, wall.along, wall.line, closed ? wall.length : 0};
+  const bool closed = is_closed(room, f);
+  const Strip strip = strip_of(room, f);
   const bool plate = (!closed && f.span[1] - f.span[0] <= f.width) || f.height[1] - f.height[0] <= f.width;
   double s0 = f.span[0] - half, s1 = f.span[0] + half, s2 = f.span[1] - half, s3 = f.span[1] + half;
   if (closed) s0 = s1 = 0, s2 = s3 = wall.length;
@@ -158,7 +178,7 @@ std::vector<PlacedMesh> make_frames(const room::Room& room, double height, const
     if (!room.corners.empty() && reaches_start(f) && meets(room, frames, f, true)) clip(room.space, net, bisector(room, f.wall), side++);
     if (!room.corners.empty() && reaches_end(room, f) && meets(room, frames, f, false))
       clip(room.space, net, geometry::reversed(bisector(room, (f.wall + 1) % n)), side++);
-    PlacedMesh mesh = to_mesh(room.space, std::move(net));
+    PlacedMesh mesh = to_mesh(strip_of(room, f), std::move(net));
     mesh.kind = PartKind::frame;
     mesh.wall = f.wall;
     meshes.push_back(std::move(mesh));
@@ -188,12 +208,11 @@ Result<PlacedMesh> make_beam(const room::Room& room, double height, const Positi
   Net net = std::move(quads.net);
   int side = 10;
   for (const room::Wall& wall : room.walls) clip(space, net, wall.line, side++);
-  net.pieces = cut_at_height(space, net, net.pieces, 0, side++).left;
-  net.pieces = cut_at_height(space, net, net.pieces, height, side++).right;
-  // An end that stands on the floor is not seen.
-  const auto on_floor = [&](const Net::Piece& piece) { return std::all_of(piece.loop.begin(), piece.loop.end(), [&](const Net::Edge& e) { return net.vertices[e.vertex].z < 1e-12; }); };
-  net.pieces.erase(std::remove_if(net.pieces.begin(), net.pieces.end(), on_floor), net.pieces.end());
-  PlacedMesh mesh = to_mesh(space, std::move(net));
+  // An end that stands exactly on floor or ceiling stays, so that a column is a closed body.
+  const auto beyond = [&net](double sign, double z) { return std::any_of(net.vertices.begin(), net.vertices.end(), [=](const Position& v) { return sign * (v.z - z) > 0; }); };
+  if (beyond(-1, 0)) net.pieces = cut_at_height(space, net, net.pieces, 0, side++).left;
+  if (beyond(1, height)) net.pieces = cut_at_height(space, net, net.pieces, height, side++).right;
+  PlacedMesh mesh = to_mesh(strip, std::move(net));
   mesh.kind = PartKind::object;
   return mesh;
 }

@@ -31,8 +31,8 @@ Point embedded(Space space, scene::Embedding embedding, const Vector3& p) {
 // Whether the embedding is defined and one-to-one out to p.
 bool in_chart(Space space, scene::Embedding embedding, const Vector3& p) {
   const double r = std::hypot(p.x, p.y);
-  if (!(r < 1e6) || !(std::fabs(p.z) < 1e9)) return false;
-  if (embedding == scene::Embedding::exponential) return r < (space == Space::spherical ? std::numbers::pi : space == Space::hyperbolic ? 30 : 1e6);
+  if (!(r < 1e15) || !(std::fabs(p.z) < 1e15)) return false;
+  if (embedding == scene::Embedding::exponential) return r < (space == Space::spherical ? std::numbers::pi : space == Space::hyperbolic ? 30 : 1e15);
   return space != Space::hyperbolic || r < 2 * (1 - 1e-9);
 }
 

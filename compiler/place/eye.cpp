@@ -99,8 +99,13 @@ Vector3 towards(const geometry::Isometry& room_from_eye, double eye_z, const Pos
   return {p.real(), p.imag(), target.z - eye_z};
 }
 
-// Sets the camera's axes; looking straight up or down keeps the azimuth 0 for what is right.
-void look_along(Eye& eye, const Vector3& direction, double azimuth_if_vertical) {
+// Sets the camera's axes; looking straight up or down keeps the azimuth 0 for what is right. A picture all around stays upright, with its
+// horizon level, whatever it looks at: tilted, every vertical beam would be a wave.
+void look_along(Eye& eye, Vector3 direction, double azimuth_if_vertical) {
+  if (eye.projection != scene::Projection::perspective) {
+    direction.z = 0;
+    if (std::hypot(direction.x, direction.y) < 1e-12) direction = {std::cos(azimuth_if_vertical), std::sin(azimuth_if_vertical), 0};
+  }
   eye.forward = geometry::normalised(direction);
   const double flat = std::hypot(eye.forward.x, eye.forward.y);
   if (flat > 1e-12) {

@@ -34,6 +34,7 @@ struct Eye {
 /// Places the camera of a scene in its furnished room.
 /// Makes:       an eye that looks at an object (the centre of its bounding box), a place (at the eye's height if it has none) or in a direction along the geodesic
 ///              there. Default: the centre of the room at the eye's height; an eye that stands there looks towards the middle of the longest wall.
+///              Panoramas and cylinders stay level: they look there with the horizon in the middle.
 ///              Looking straight up or down is fine: the upper edge of the picture then shows what lies behind or before the azimuth.
 /// Diagnostics: place.eye-outside-room (and how far), place.eye-in-wall (exactly on the border), place.eye-inside-object (names it), those of `locate`,
 ///              place.no-such-object, place.looks-at-itself.

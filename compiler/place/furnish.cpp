@@ -111,24 +111,6 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
     builder.placed.parts = sewn(builder.room, spec.height, std::move(builder.placed.parts));
 }
 
-void build_frames(Builder& builder, const ClippedMirrors& mirrors) {
-  std::vector<FrameSpec> specs;
-  std::vector<const scene::Frame*> frames;
-  for (std::size_t i = 0; i < mirrors.mirrors.size(); ++i) {
-    const PlacedMirror& m = mirrors.mirrors[i];
-    if (m.wall < 0 || !mirrors.sources[i]->frame) continue;
-    specs.push_back({m.wall, {m.span[0], m.span[1]}, {m.height[0], m.height[1]}, mirrors.sources[i]->frame->width});
-    frames.push_back(&*mirrors.sources[i]->frame);
-  }
-  std::vector<PlacedMesh> meshes = make_frames(builder.room, builder.scene.room.height, specs);
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    if (meshes[i].triangles.empty()) continue;
-    meshes[i].name = fmt::format("frame on wall {}", specs[i].wall + 1);
-    const std::vector<std::uint16_t> looks = builder.looks_of(frames[i]->material);
-    builder.add_part(std::move(meshes[i]), looks, frames[i]->material.span);
-  }
-}
-
 // ---- objects ----------------------------------------------------------------------------------------------------------------
 
 const mesh::Mesh* load(Builder& builder, const scene::Sourced<std::string>& path) {
@@ -157,25 +139,7 @@ mesh::Mesh primitive(const scene::Object& object) {
 }
 
 // The looks of an object's mesh: the author's material, else what the file says.
-std::vector<std::uint16_t> looks_of(Builder& builder, const scene::Object& object, const mesh::Mesh& mesh, PlacedMesh& placed) {
-  if (object.material) {
-    Material material = *object.material;
-    if (material.pattern == Pattern::texture && placed.uv.empty()) {
-      builder.warnings.push_back(make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown in its plain colour", object.name),
-                                              "give it a `color`, or export the mesh with uv", material.span));
-      material.pattern = Pattern::plain;
-    }
-    // A checker on an object is a solid one: the cell that holds the middle of the triangle.
-    for (std::size_t i = 0; i < placed.look.size(); ++i) {
-      placed.look[i] = 0;
-      if (material.pattern != Pattern::checker) continue;
-      geometry::Vector3 middle;
-      for (const std::uint32_t v : placed.triangles[i]) middle = middle + (1.0 / 3) * placed.pattern_position[v];
-      const double cells = std::floor(middle.x / material.cell) + std::floor(middle.y / material.cell) + std::floor(middle.z / material.cell);
-      placed.look[i] = std::fmod(cells, 2) != 0 ? 1 : 0;
-    }
-    return builder.looks_of(material);
-  }
+std::vector<std::uint16_t> file_looks(Builder& builder, const mesh::Mesh& mesh, const PlacedMesh& placed) {
   std::vector<std::uint16_t> looks;
   const int first = static_cast<int>(builder.placed.textures.size());
   builder.placed.textures.insert(builder.placed.textures.end(), mesh.textures.begin(), mesh.textures.end());
@@ -189,6 +153,40 @@ std::vector<std::uint16_t> looks_of(Builder& builder, const scene::Object& objec
   return looks;
 }
 
+// Adds a mesh in one material. Checkers are solid: cells of the mesh's own coordinates.
+void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const SourceSpan& span) {
+  if (material.pattern == Pattern::texture && mesh.uv.empty()) {
+    builder.warnings.push_back(make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown in its plain colour", mesh.name),
+                                            "give it a `color`, or export the mesh with uv", material.span));
+    material.pattern = Pattern::plain;
+  }
+  std::fill(mesh.look.begin(), mesh.look.end(), std::uint16_t{0});
+  if (material.pattern == Pattern::checker) {
+    Result<PlacedMesh> cells = checkered(builder.room.space, std::move(mesh), material.cell);
+    if (!cells) return builder.fail(std::move(cells).error(), material.span.source ? material.span : span);
+    mesh = *std::move(cells);
+  }
+  const std::vector<std::uint16_t> looks = builder.looks_of(material);
+  builder.add_part(std::move(mesh), looks, span);
+}
+
+void build_frames(Builder& builder, const ClippedMirrors& mirrors) {
+  std::vector<FrameSpec> specs;
+  std::vector<const scene::Frame*> frames;
+  for (std::size_t i = 0; i < mirrors.mirrors.size(); ++i) {
+    const PlacedMirror& m = mirrors.mirrors[i];
+    if (m.wall < 0 || !mirrors.sources[i]->frame) continue;
+    specs.push_back({m.wall, {m.span[0], m.span[1]}, {m.height[0], m.height[1]}, mirrors.sources[i]->frame->width});
+    frames.push_back(&*mirrors.sources[i]->frame);
+  }
+  std::vector<PlacedMesh> meshes = make_frames(builder.room, builder.scene.room.height, specs);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (meshes[i].triangles.empty()) continue;
+    meshes[i].name = fmt::format("frame on wall {}", specs[i].wall + 1);
+    add_in_material(builder, std::move(meshes[i]), frames[i]->material, frames[i]->material.span);
+  }
+}
+
 void build_beam(Builder& builder, const scene::Object& object, const scene::BeamSpec& beam) {
   const double height = builder.scene.room.height;
   Result<geometry::Position> from = locate(beam.from, builder.room, height, 0), to = locate(beam.to, builder.room, height, 0);
@@ -198,8 +196,7 @@ void build_beam(Builder& builder, const scene::Object& object, const scene::Beam
   Result<PlacedMesh> mesh = make_beam(builder.room, height, *from, *to, beam.width);
   if (!mesh) return builder.fail(std::move(mesh).error(), object.span);
   mesh->name = object.name;
-  const std::vector<std::uint16_t> looks = object.material ? builder.looks_of(*object.material) : std::vector<std::uint16_t>{builder.add({})};
-  builder.add_part(*std::move(mesh), looks, object.span);
+  add_in_material(builder, *std::move(mesh), object.material.value_or(Material{}), object.span);
 }
 
 void build_object(Builder& builder, const scene::Object& object) {
@@ -211,7 +208,8 @@ void build_object(Builder& builder, const scene::Object& object) {
   if (!mesh) return;
   Result<PlacedMesh> placed = place_object(*mesh, object, builder.room, builder.scene.room.height, builder.options.embed);
   if (!placed) return builder.fail(std::move(placed).error(), object.span);
-  const std::vector<std::uint16_t> looks = looks_of(builder, object, *mesh, *placed);
+  if (object.material) return add_in_material(builder, *std::move(placed), *object.material, object.span);
+  const std::vector<std::uint16_t> looks = file_looks(builder, *mesh, *placed);
   builder.add_part(*std::move(placed), looks, object.span);
 }
 

@@ -81,7 +81,7 @@ Halves cut_by(const std::vector<Net::Piece>& pieces, int side, const std::functi
 Halves cut(geometry::Space space, Net& net, const std::vector<Net::Piece>& pieces, const geometry::Line& line, int side) {
   const auto value = [&](std::uint32_t i) {
     const geometry::Ambient& x = net.vertices[i].floor;
-    const double size = std::fmax(std::fabs(x.w), std::fmax(std::fabs(x.x), std::fabs(x.y))), v = geometry::value_at(line, x);
+    const double size = std::fmax(std::fabs(line.w * x.w), std::fmax(std::fabs(x.x), std::fabs(x.y))), v = geometry::value_at(line, x);
     return std::fabs(v) <= 1e-12 * size ? 0 : v;
   };
   return cut_by(pieces, side, value, [&](std::uint32_t a, std::uint32_t b, double t) { return between(space, net, a, b, t); });

@@ -32,12 +32,14 @@ struct WallGrid {
 /// Heights of the whole room, so that two that differ by rounding are one.
 class Heights {
  public:
+  explicit Heights(double height) : same_(1e-9 * height) {}
   double key(double z) {
-    const auto after = known_.lower_bound(z - 1e-9);
-    return after != known_.end() && *after <= z + 1e-9 ? *after : *known_.insert(z).first;
+    const auto after = known_.lower_bound(z - same_);
+    return after != known_.end() && *after <= z + same_ ? *after : *known_.insert(z).first;
   }
 
  private:
+  double same_;
   std::set<double> known_;
 };
 
@@ -268,7 +270,7 @@ Result<std::vector<PlacedMesh>> make_panels(const room::Room& room, double heigh
                                             const PanelOptions& options) {
   const std::size_t n = room.walls.size();
   std::vector<Rail> rails = make_rails(room);
-  Heights heights;
+  Heights heights(height);
   heights.key(0), heights.key(height);
   for (const PlacedMirror& mirror : mirrors) heights.key(mirror.height[0]), heights.key(mirror.height[1]);
   std::vector<WallGrid> grids;

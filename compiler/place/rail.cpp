@@ -17,15 +17,15 @@ double arc_on_wall(const room::Room& room, int index, const Point& x) {
   return std::fmin(std::fmax(s, 0), wall.length);
 }
 
-Rail::Rail(const room::Room& room, int wall) : room_(room), wall_(wall) {
+Rail::Rail(const room::Room& room, int wall) : room_(room), wall_(wall), same_(1e-9 * room.circumradius) {
   const std::size_t n = room.outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     if (room.outline_wall[i] != wall) continue;
     const double length = room.walls[wall].length;
     const auto place = [&](const Point& x, bool is_end) {
       double s = arc_on_wall(room, wall, x);
-      if (s < 1e-9) s = is_end ? length : 0;
-      if (length - s < 1e-9) s = length;
+      if (s < same_) s = is_end ? length : 0;
+      if (length - s < same_) s = length;
       if (points_.try_emplace(s, x).second) given_.push_back(s);
     };
     place(room.outline[i], false);
@@ -34,8 +34,8 @@ Rail::Rail(const room::Room& room, int wall) : room_(room), wall_(wall) {
 }
 
 const double* Rail::near(double s) const {
-  const auto after = points_.lower_bound(s - 1e-9);
-  return after != points_.end() && after->first <= s + 1e-9 ? &after->first : nullptr;
+  const auto after = points_.lower_bound(s - same_);
+  return after != points_.end() && after->first <= s + same_ ? &after->first : nullptr;
 }
 
 double Rail::key(double s) {

@@ -8,7 +8,7 @@
 namespace orbc::place {
 
 /// The points that panels share along the foot of one wall, by arc length: each place has one point, whoever asked for it first.
-/// Arc lengths closer than 1e-9 are one place. Keys 0 and `length` are the wall's ends as the outline stores them.
+/// Arc lengths closer than 1e-9 of the room's size are one place. Keys 0 and `length` are the wall's ends as the outline stores them.
 class Rail {
  public:
   Rail(const room::Room& room, int wall);
@@ -24,6 +24,7 @@ class Rail {
   [[nodiscard]] const double* near(double s) const;
   const room::Room& room_;
   int wall_;
+  double same_;
   std::map<double, geometry::Point> points_;
   std::vector<double> given_;
 };

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Position;
 
-constexpr double kSame = 1e-9;
+constexpr double kSame = 1e-9;   // of the room's size
 
 /// A straight border of the room: the foot or head of a wall (parameter: arc length), or the upright edge where a wall starts (parameter: height).
 struct Seam {
@@ -20,15 +20,16 @@ struct Seam {
   int wall = 0;
   bool upright = false;
   double z = 0;
+  double same = kSame;
 
   [[nodiscard]] std::optional<double> parameter(const PlacedMesh& mesh, std::uint32_t v) const {
     const geometry::Point& x = mesh.floor[v];
     if (upright) {
       const geometry::Point& start = room->walls[wall].start;
-      if (std::fabs(x.w - start.w) + std::fabs(x.x - start.x) + std::fabs(x.y - start.y) > kSame * (1 + std::fabs(x.w))) return std::nullopt;
+      if (std::fabs(x.w - start.w) + std::fabs(x.x - start.x) + std::fabs(x.y - start.y) > same * (1 + std::fabs(x.w))) return std::nullopt;
       return mesh.z[v];
     }
-    if (std::fabs(mesh.z[v] - z) > kSame || std::fabs(geometry::signed_distance(room->space, room->walls[wall].line, x)) > kSame) return std::nullopt;
+    if (std::fabs(mesh.z[v] - z) > same || std::fabs(geometry::signed_distance(room->space, room->walls[wall].line, x)) > same) return std::nullopt;
     return arc_on_wall(*room, wall, x);
   }
   // How far along in b, from a to b, the parameter p lies.
@@ -43,9 +44,9 @@ struct Seam {
 
 using Places = std::map<double, Position>;
 
-Places::iterator find(Places& places, double p) {
-  const auto at = places.lower_bound(p - kSame);
-  return at != places.end() && at->first <= p + kSame ? at : places.end();
+Places::iterator find(Places& places, double p, double same) {
+  const auto at = places.lower_bound(p - same);
+  return at != places.end() && at->first <= p + same ? at : places.end();
 }
 
 // The parameters of an edge's ends, the smaller first if `a` comes first; across the start of a closed wall the later end counts on.
@@ -63,8 +64,8 @@ void gather(const Seam& seam, PlacedMesh& mesh, Places& places) {
   for (std::uint32_t v = 0; v < mesh.floor.size(); ++v) {
     const auto p = seam.parameter(mesh, v);
     if (!p) continue;
-    const double wrapped = seam.period() > 0 && *p > seam.period() - kSame ? 0 : *p;
-    auto at = find(places, wrapped);
+    const double wrapped = seam.period() > 0 && *p > seam.period() - seam.same ? 0 : *p;
+    auto at = find(places, wrapped, seam.same);
     if (at == places.end()) at = places.emplace(wrapped, Position{mesh.floor[v], seam.upright ? mesh.z[v] : seam.z}).first;
     mesh.floor[v] = at->second.floor;
     mesh.z[v] = at->second.z;
@@ -93,7 +94,7 @@ void divide(const Seam& seam, PlacedMesh& mesh, const Places& places) {
     if (k < 3) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       const Run run = run_of(seam, *parameter[a], *parameter[b]);
-      const double low = std::fmin(run.from, run.to) + kSame, high = std::fmax(run.from, run.to) - kSame;
+      const double low = std::fmin(run.from, run.to) + seam.same, high = std::fmax(run.from, run.to) - seam.same;
       std::map<double, Position> between;
       for (const double shift : {0.0, seam.period()}) {
         for (auto at = places.lower_bound(low - shift); at != places.end() && at->first < high - shift; ++at) between.emplace(at->first + shift, at->second);
@@ -118,6 +119,7 @@ void divide(const Seam& seam, PlacedMesh& mesh, const Places& places) {
 
 std::vector<PlacedMesh> sewn(const room::Room& room, double height, std::vector<PlacedMesh> panels) {
   const int n = static_cast<int>(room.walls.size());
+  const double same = kSame * std::fmin(room.circumradius, height);
   const auto sew = [&panels](const Seam& seam, const auto& belongs) {
     Places places;
     for (PlacedMesh& panel : panels)
@@ -126,9 +128,9 @@ std::vector<PlacedMesh> sewn(const room::Room& room, double height, std::vector<
       if (belongs(panel)) divide(seam, panel, places);
   };
   for (int i = 0; i < n; ++i) {
-    sew({&room, i, false, 0}, [i](const PlacedMesh& p) { return p.kind == PartKind::floor || (p.kind == PartKind::wall && p.wall == i); });
-    sew({&room, i, false, height}, [i](const PlacedMesh& p) { return p.kind == PartKind::ceiling || (p.kind == PartKind::wall && p.wall == i); });
-    sew({&room, i, true, 0}, [i, n](const PlacedMesh& p) { return p.kind == PartKind::wall && (p.wall == i || p.wall == (i + n - 1) % n); });
+    sew({&room, i, false, 0, same}, [i](const PlacedMesh& p) { return p.kind == PartKind::floor || (p.kind == PartKind::wall && p.wall == i); });
+    sew({&room, i, false, height, same}, [i](const PlacedMesh& p) { return p.kind == PartKind::ceiling || (p.kind == PartKind::wall && p.wall == i); });
+    sew({&room, i, true, 0, same}, [i, n](const PlacedMesh& p) { return p.kind == PartKind::wall && (p.wall == i || p.wall == (i + n - 1) % n); });
   }
   return panels;
 }

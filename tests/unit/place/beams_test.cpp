@@ -48,7 +48,7 @@ TEST_CASE("an upright beam is a square column", "[place]") {
   const room::Room room = make_room("*22222");
   const Point p = geometry::point_from_log(room.space, {0.2, 0.1});
   const PlacedMesh column = make_beam(room, 1.0, {p, 0}, {p, 1}, 0.1).value();
-  for (const auto& [a, b] : open_edges({column})) CHECK((a[3] == b[3] && (a[3] == 0 || a[3] == 1)));   // cut off at floor and ceiling
+  CHECK(open_edges({column}).empty());
   for (std::size_t i = 0; i < column.floor.size(); ++i) CHECK(geometry::distance(room.space, p, column.floor[i]) == Approx(0.05 * std::sqrt(2)).epsilon(2e-3));
   CHECK(make_beam(room, 1.0, {p, 0.5}, {p, 0.5}, 0.1).error()[0].code == "place.no-beam");
 }

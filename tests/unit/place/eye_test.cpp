@@ -184,6 +184,22 @@ TEST_CASE("an eye outside the room, in a wall or in a body is refused", "[place]
   }
 }
 
+TEST_CASE("an eye in a column from floor to ceiling is inside it", "[place]") {
+  scene::Scene scene = bare_scene("*22222");
+  scene::Object column;
+  column.name = "column";
+  scene::BeamSpec beam;
+  beam.from.floor = beam.to.floor = scene::AtPolar{0.3, Angle::from_degrees(60)};
+  beam.to.z = 1, beam.width = 0.1;
+  column.shape = beam;
+  scene.objects = {column};
+  const PlacedRoom placed = furnished(scene);
+  scene.camera.place.floor = scene::AtPolar{0.31, Angle::from_degrees(60)};
+  CHECK(code_of(scene, placed) == "place.eye-inside-object");
+  scene.camera.place.floor = scene::AtPolar{0.4, Angle::from_degrees(60)};
+  CHECK(code_of(scene, placed) == "");
+}
+
 TEST_CASE("the eye in the hole of a ring is not inside it, wherever the vertical line meets edges and vertices", "[place]") {
   scene::Scene scene = bare_scene("*2222");
   scene::Object ring;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "compiler/mesh/image.h"
 #include "compiler/place/wrap.h"
@@ -195,6 +196,60 @@ TEST_CASE("wrapping keeps every point's texel", "[place]") {
   CHECK(total == Approx(1));
   mesh.uv[2] = {1e6f, 0};
   CHECK(wrapped(geometry::Space::euclidean, mesh).error()[0].code == "place.too-many-repeats");
+}
+
+TEST_CASE("a checker on an object is cut along its cells and stays closed", "[place]") {
+  scene::Scene scene = default_of("*22222");
+  scene::Object ball;
+  ball.name = "ball", ball.shape = scene::SphereSpec{0.2};
+  ball.material.emplace().pattern = scene::Pattern::checker;
+  ball.material->cell = 0.07;
+  scene.objects = {ball};
+  const PlacedRoom room = furnished(scene).value().room;
+  const PlacedMesh& mesh = room.parts.back();
+  std::set<std::uint16_t> looks(mesh.look.begin(), mesh.look.end());
+  CHECK(looks.size() == 2);
+  CHECK(open_edges({mesh}).empty());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    geometry::Vector3 middle;
+    for (const std::uint32_t v : mesh.triangles[i]) middle = middle + (1.0 / 3) * mesh.pattern_position[v];
+    const double cells = std::floor(middle.x / 0.07) + std::floor(middle.y / 0.07) + std::floor(middle.z / 0.07);
+    // Slivers of rounding at the planes aside, each triangle lies in one cell.
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      const geometry::Vector3 d = 0.999 * (mesh.pattern_position[v] - middle) + middle;
+      if (std::floor(d.x / 0.07) + std::floor(d.y / 0.07) + std::floor(d.z / 0.07) != cells) CHECK(length(d - middle) < 1e-6);
+    }
+    const bool second = room.looks[mesh.look[i]].color.r == room.looks[mesh.look[i]].material.second.r;
+    if (std::fabs(middle.x / 0.07 - std::round(middle.x / 0.07)) > 1e-5 && std::fabs(middle.y / 0.07 - std::round(middle.y / 0.07)) > 1e-5 &&
+        std::fabs(middle.z / 0.07 - std::round(middle.z / 0.07)) > 1e-5)
+      CHECK(second == (std::fmod(cells, 2) != 0));
+  }
+  scene.objects[0].material->cell = 1e-4;
+  CHECK(furnished(scene).error()[0].code == "place.too-many-cells");
+}
+
+TEST_CASE("rooms of the plane may have any scale", "[place]") {
+  for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+    CAPTURE(scale);
+    scene::Scene scene = default_of("*2222");
+    scene.room.shape.scale = scale;
+    scene.room.height = scale;
+    scene.room.floor.material.cell = 0.3 * scale;
+    scene.room.walls[0].mirrors[0].span = {0.5 * scale, 0.75 * scale};
+    scene.room.walls[0].mirrors[0].frame.emplace().width = 0.1 * scale;
+    scene.room.walls[1].mirrors.clear();
+    scene::Object box;
+    box.name = "box", box.shape = scene::BoxSpec{{0.3, 0.2, 0.1}}, box.size = 0.4 * scale;
+    scene.objects = {box};
+    const PlacedRoom room = furnished(scene).value().room;
+    REQUIRE(room.parts.size() == 6);
+    for (const PlacedMesh& part : room.parts)
+      for (const mesh::Triangle& t : part.triangles) CHECK((t[0] != t[1] && t[1] != t[2] && t[2] != t[0]));
+    double sum = 0;
+    for (const mesh::Triangle& t : room.parts[0].triangles) sum += area(room.room.space, room.parts[0].floor[t[0]], room.parts[0].floor[t[1]], room.parts[0].floor[t[2]]);
+    CHECK(sum == Approx(room.room.area));
+    CHECK(open_edges({room.parts[5]}).empty());
+  }
 }
 
 TEST_CASE("the same scene is furnished the same, vertex by vertex", "[place]") {
