@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <memory>
 
+#include "compiler/bend/clip.h"
 #include "compiler/bend/log_map.h"
 #include "compiler/bend/sight.h"
 #include "compiler/bend/tessellate.h"
@@ -21,7 +24,8 @@ using geometry::Isometry;
 struct Work {
   const std::vector<cover::Copy>& copies;
   std::vector<PartNet> nets;
-  Isometry eye_from_cover;
+  std::map<int, std::vector<std::unique_ptr<OwnPart>>> storeys;   // by number; those above and below the room's own
+  Isometry eye_from_cover, eye_from_room;
   Sight sight;
   BendOptions options;
 };
@@ -62,12 +66,37 @@ bool is_drawn(const Work& work, const PartNet& net, const cover::Copy& copy) {
   return net.mesh->kind != place::PartKind::wall || wall < 0 || wall >= 64 || !((copy.nearer_walls >> wall) & 1);
 }
 
+/// The parts of one copy: those of its storey, cut to its wedge. Made anew for each pass, which gives the same.
+class CopyParts {
+ public:
+  CopyParts(const Work& work, const cover::Copy& copy) {
+    const auto storey = work.storeys.find(copy.storey.number);
+    // Wedges are seen from the eye, whatever the view.
+    const LogMap seen{work.eye_from_room.space, geometry::matrix(work.eye_from_room * copy.cover_from_room), copy.sheet};
+    for (std::size_t i = 0; i < work.nets.size(); ++i) {
+      const PartNet& net = storey == work.storeys.end() ? work.nets[i] : storey->second[i]->net;
+      if (!is_drawn(work, net, copy)) continue;
+      const InWedge place = copy.wedge ? place_in(*copy.wedge, seen, net) : InWedge::all;
+      if (place == InWedge::all) parts_.push_back(&net);
+      if (place != InWedge::some) continue;
+      own_.push_back(clipped(*copy.wedge, seen, net));
+      if (!own_.back()->mesh.triangles.empty()) parts_.push_back(&own_.back()->net);
+    }
+  }
+  [[nodiscard]] auto begin() const { return parts_.begin(); }
+  [[nodiscard]] auto end() const { return parts_.end(); }
+
+ private:
+  std::vector<std::unique_ptr<OwnPart>> own_;
+  std::vector<const PartNet*> parts_;
+};
+
 CopyCount count_copy(const Work& work, const cover::Copy& copy, std::uint64_t most, std::atomic<std::int64_t>& store) {
   CopyCount count;
   std::int64_t bytes = 0;
   const CopyMap map = copy_map(work, copy);
-  for (const PartNet& net : work.nets) {
-    if (!is_drawn(work, net, copy)) continue;
+  for (const PartNet* part : CopyParts(work, copy)) {
+    const PartNet& net = *part;
     count.vertices += net.points.w.size();
     const double bound = error_bound(map, work.sight, net);
     if (bound <= 1) {
@@ -95,10 +124,10 @@ class Writer {
   Writer(const Work& work, const cover::Copy& copy, const BentRange& range, const std::vector<Tessellation>& kept, BentCover& out)
       : work_(work), map_(copy_map(work, copy)), out_(out), vertex_(range.first_vertex), index_(range.first_index) {
     // An odd number of reflections turns triangles inside out, and so does going round the sphere to the far side.
-    turned_ = copy.cover_from_room.reversing != (copy.sheet % 2 == 1);
+    turned_ = (copy.cover_from_room.reversing != (copy.sheet % 2 == 1)) != (copy.storey.sign < 0);
     std::size_t split = 0;
-    for (const PartNet& net : work.nets) {
-      if (!is_drawn(work, net, copy)) continue;
+    for (const PartNet* part : CopyParts(work, copy)) {
+      const PartNet& net = *part;
       if (error_bound(map_, work.sight, net) <= 1) {
         write_points(net.points);
         write_uv(*net.uv);
@@ -241,7 +270,8 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<std::vec
   ORBC_CHECK(options.disk_tolerance, >, 0);
   ORBC_CHECK(options.colour_tolerance, >, 0);
   ORBC_CHECK(atlas_uv.size(), ==, room.parts.size());
-  Work work{copies, {}, options.view == View::eye ? inverse(eye.room_from_eye) : geometry::identity(room.room.space), sight_of(eye, options), options};
+  const Isometry eye_from_room = inverse(eye.room_from_eye);
+  Work work{copies, {}, {}, options.view == View::eye ? eye_from_room : geometry::identity(room.room.space), eye_from_room, sight_of(eye, options), options};
   work.nets.resize(room.parts.size());
   executor(room.parts.size(), [&](std::size_t i) {
     const auto& part = room.parts[i];
@@ -249,6 +279,11 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<std::vec
     const bool vary = options.colours_vary || colours_vary(room, part);
     work.nets[i] = part_net(room.room.space, part, atlas_uv[i], vary ? options.colour_tolerance : 0);
   });
+  for (const cover::Copy& copy : copies) {
+    if (copy.storey.number == 0 || work.storeys.count(copy.storey.number)) continue;
+    auto& parts = work.storeys[copy.storey.number];
+    for (const PartNet& net : work.nets) parts.push_back(lifted(copy.storey, room.room.space, net));
+  }
 
   Totals totals = count_all(work, executor, progress);
   if (!totals.fits) return too_dense(work, executor);

@@ -41,6 +41,7 @@ struct BentCover {
 
 /// Bends every copy of the room for the eye: splits edges until every chord lies within the tolerance of the true image, each edge judged
 /// by itself so that neighbours agree, then maps the vertices by the log map.
+/// Copies with a wedge are cut to it first, copies on other storeys lifted there (clip.h).
 /// In:          parts of one room, with uv per vertex into the atlas (parallel to parts[i].floor); copies; the eye.
 /// Makes:       the same bytes whatever the executor; walls that face the eye (`Copy::nearer_walls`) are left out, neighbours draw them.
 /// Diagnostics: bend.too-dense when more than `max_triangles` would be needed; the hint names a tolerance that fits.

@@ -168,12 +168,12 @@ InWedge place_in(const Wedge& wedge, const LogMap& map, const PartNet& net) {
 
 std::unique_ptr<OwnPart> clipped(const Wedge& wedge, const LogMap& map, const PartNet& net) { return Clipper(wedge, map, net).run(); }
 
-std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, const LogMap& map, const PartNet& net) {
+std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, geometry::Space space, const PartNet& net) {
   auto own = std::make_unique<OwnPart>();
   own->mesh = *net.mesh;
   own->uv = *net.uv;
   for (double& z : own->mesh.z) z = storey.sign * z + storey.offset;
-  own->net = part_net(map.space, own->mesh, own->uv, net.along);
+  own->net = part_net(space, own->mesh, own->uv, net.along);
   return own;
 }
 

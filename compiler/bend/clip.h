@@ -27,6 +27,6 @@ enum class InWedge { all, some, none };
 [[nodiscard]] std::unique_ptr<OwnPart> clipped(const cover::Wedge& wedge, const LogMap& map, const PartNet& net);
 
 /// The part as it is on a storey: z ↦ sign·z + offset. Triangles keep their order of corners; the copy is turned inside out when sign < 0.
-[[nodiscard]] std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, const LogMap& map, const PartNet& net);
+[[nodiscard]] std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, geometry::Space space, const PartNet& net);
 
 }  // namespace orbc::bend
