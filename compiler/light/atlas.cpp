@@ -1,5 +1,6 @@
-// Renderers look a texture up between texels in ways of their own (POV-Ray blends linear light and wraps at the borders, Cycles blends encoded values and
-// clamps), so nothing may depend on it: colours are blocks read in their middle, pictures have gutters. Packing by shelves, tallest first.
+// Renderers look a texture up between texels in ways of their own (POV-Ray blends linear light and wraps at the borders, Cycles blends
+// encoded values and clamps), so nothing may depend on it: colours are blocks read in their middle, pictures have gutters. Packing by
+// shelves, tallest first.
 #include "compiler/light/atlas.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,9 @@ struct Cell {
   [[nodiscard]] auto key() const { return std::tuple(texture, color, tint, tiles); }
 };
 
-std::uint8_t encoded(double linear) { return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0)))); }
+std::uint8_t encoded(double linear) {
+  return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0))));
+}
 
 Cell cell_of(const place::PlacedRoom& room, const Look& look, bool tiles) {
   Cell cell;
@@ -113,7 +116,8 @@ Texel texel_of(const mesh::Image& image, const Cell& cell, const std::array<std:
 void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
   std::array<std::array<std::uint8_t, 256>, 3> tint;
   for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 256; ++i) tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint8_t>(i) : encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
+    for (int i = 0; i < 256; ++i)
+      tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint8_t>(i) : encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
   for (int y = 0; y < cell.height; ++y)
     for (int x = 0; x < cell.width; ++x) {
       const Texel texel = cell.texture < 0 ? cell.color : texel_of(room.textures[cell.texture], cell, tint, x - kGutter, y - kGutter);
@@ -167,8 +171,9 @@ Result<Atlas> make_atlas(const place::PlacedRoom& room, const AtlasOptions& opti
     const auto largest = std::max_element(layout.cells.begin(), layout.cells.end(), [](const Cell& a, const Cell& b) {
       return static_cast<std::int64_t>(a.width) * a.height < static_cast<std::int64_t>(b.width) * b.height;
     });
-    return make_error("light.atlas-too-large", fmt::format("the pictures of this scene do not fit into one of {0}×{0} pixels", options.max_side),
-                      fmt::format("the largest picture is {}×{}: make it smaller", largest->width - 2 * kGutter, largest->height - 2 * kGutter));
+    return make_error(
+        "light.atlas-too-large", fmt::format("the pictures of this scene do not fit into one of {0}×{0} pixels", options.max_side),
+        fmt::format("the largest picture is {}×{}: make it smaller", largest->width - 2 * kGutter, largest->height - 2 * kGutter));
   }
   Atlas atlas;
   atlas.image.width = layout.width;

@@ -20,9 +20,10 @@ struct AtlasOptions {
 
 /// Gathers the plain colours and pictures of a room in one picture.
 /// In:          uv of textured triangles in [0, 1]² (place::furnish sees to it).
-/// Makes:       every distinct colour as a block of 4×4 texels, addressed in its middle, so that nearest and bilinear lookup are both exact; every pair of texture
-///              and tint once, texel by texel (uv keeps its place between texel centres, so nearest lookup is exact), with a gutter of 4 texels: repeated where the
-///              texture tiles a panel, stretched where it covers an object. Same room, same bytes.
+/// Makes:       every distinct colour as a block of 4×4 texels, addressed in its middle, so that nearest and bilinear lookup are both
+///              exact; every pair of texture and tint once, texel by texel (uv keeps its place between texel centres, so nearest lookup is
+///              exact), with a gutter of 4 texels: repeated where the texture tiles a panel, stretched where it covers an object. Same
+///              room, same bytes.
 /// Diagnostics: light.atlas-too-large; the hint names the largest picture.
 [[nodiscard]] Result<Atlas> make_atlas(const place::PlacedRoom& room, const AtlasOptions& options = {});
 

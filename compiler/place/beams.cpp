@@ -1,5 +1,6 @@
-// In front of a line, the point at arc length s and depth d is P(s, d) = cosκ(d)·X(s) + sinκ(d)·N, with the line's own vector N = (κ l_w, l_x, l_y):
-// N is the unit normal at every point of the line (Thurston 1997, §2.4). Lines of constant d are equidistants of geodesic curvature tanκ(d).
+// In front of a line, the point at arc length s and depth d is P(s, d) = cosκ(d)·X(s) + sinκ(d)·N, with the line's own vector N = (κ l_w,
+// l_x, l_y): N is the unit normal at every point of the line (Thurston 1997, §2.4). Lines of constant d are equidistants of geodesic
+// curvature tanκ(d).
 #include "compiler/place/beams.h"
 
 #include <algorithm>
@@ -28,14 +29,16 @@ struct Strip {
   double period = 0;             ///< of a whole great circle: its length; 0 = open
   [[nodiscard]] Point at(double s, double d) const {
     const Ambient normal{geometry::curvature(space) * line.w, line.x, line.y};
-    return geometry::normalised_point(space, geometry::cos_k(space, d) * geometry::point_along(space, start, along, s) + geometry::sin_k(space, d) * normal);
+    return geometry::normalised_point(
+        space, geometry::cos_k(space, d) * geometry::point_along(space, start, along, s) + geometry::sin_k(space, d) * normal);
   }
   /// (s, depth, z) of a position: the own coordinates of what is built in the strip.
   [[nodiscard]] geometry::Vector3 place_of(const Position& p) const {
     const double k = geometry::curvature(space);
     const auto form = [k](const Ambient& a, const Ambient& b) { return k * a.w * b.w + a.x * b.x + a.y * b.y; };
     // ⟨X, along⟩ = cosκ(d) sinκ(s) and κ⟨X, start⟩ = cosκ(d) cosκ(s).
-    const double sine = form(along, k == 0 ? p.floor - start : static_cast<const Ambient&>(p.floor)), cosine = k == 0 ? 1 : k * form(start, p.floor);
+    const double sine = form(along, k == 0 ? p.floor - start : static_cast<const Ambient&>(p.floor)),
+                 cosine = k == 0 ? 1 : k * form(start, p.floor);
     const double s = space == Space::spherical ? std::atan2(sine, cosine) : geometry::atan_k(space, sine / cosine);
     return {s, geometry::signed_distance(space, line, p.floor), p.z};
   }
@@ -66,7 +69,9 @@ class Quads {
 };
 
 // Chord h of an equidistant at depth d: sagitta tanκ(d)·h²/8 ≤ width/1000 at d = width/2 gives h = 0.126.
-int step_count(Space space, double length) { return space == Space::euclidean ? 1 : std::max(1, static_cast<int>(std::ceil(length / 0.126))); }
+int step_count(Space space, double length) {
+  return space == Space::euclidean ? 1 : std::max(1, static_cast<int>(std::ceil(length / 0.126)));
+}
 
 std::vector<double> steps(Space space, double from, double to) {
   const int n = step_count(space, to - from);
@@ -105,7 +110,8 @@ bool reaches_end(const room::Room& room, const FrameSpec& f) { return f.span[1] 
 bool meets(const room::Room& room, const std::vector<FrameSpec>& frames, const FrameSpec& f, bool at_start) {
   const int n = static_cast<int>(room.walls.size()), other = (f.wall + (at_start ? n - 1 : 1)) % n;
   return std::any_of(frames.begin(), frames.end(), [&](const FrameSpec& g) {
-    return g.wall == other && g.width == f.width && (at_start ? reaches_end(room, g) : reaches_start(g)) && g.height[0] <= f.height[1] && f.height[0] <= g.height[1];
+    return g.wall == other && g.width == f.width && (at_start ? reaches_end(room, g) : reaches_start(g)) && g.height[0] <= f.height[1] &&
+           f.height[0] <= g.height[1];
   });
 }
 
@@ -144,7 +150,9 @@ Net bare_frame(const room::Room& room, double height, const FrameSpec& f) {
         quads.add({s[i], half, z[j]}, {s[i], half, z[j + 1]}, {s[i + 1], half, z[j + 1]}, {s[i + 1], half, z[j]});
     }
   // A flank over the edge (s, z) → (s', z'), facing to the right of it in (−s, z), which is how the wall is seen.
-  const auto flank = [&](double sa, double za, double sb, double zb) { quads.add({sa, 0, za}, {sa, half, za}, {sb, half, zb}, {sb, 0, zb}); };
+  const auto flank = [&](double sa, double za, double sb, double zb) {
+    quads.add({sa, 0, za}, {sa, half, za}, {sb, half, zb}, {sb, 0, zb});
+  };
   for (std::size_t i = 0; i + 1 < s.size(); ++i) {
     if (f.height[0] - half > 0) flank(s[i], z0, s[i + 1], z0);
     if (f.height[1] + half < height) flank(s[i + 1], z3, s[i], z3);
@@ -188,7 +196,8 @@ std::vector<PlacedMesh> make_frames(const room::Room& room, double height, const
 
 Result<PlacedMesh> make_beam(const room::Room& room, double height, const Position& from, const Position& to, double width) {
   const Space space = room.space;
-  const double run = geometry::distance(space, from.floor, to.floor), rise = to.z - from.z, length = std::hypot(run, rise), half = width / 2;
+  const double run = geometry::distance(space, from.floor, to.floor), rise = to.z - from.z, length = std::hypot(run, rise),
+               half = width / 2;
   if (!(length > 1e-12)) return make_error("place.no-beam", "this beam begins where it ends", "give it two different positions");
   Strip strip{space, from.floor, {}, {}, 0};
   // An upright beam has no direction of its own; it stands along the room's x axis.
@@ -199,17 +208,23 @@ Result<PlacedMesh> make_beam(const room::Room& room, double height, const Positi
   Quads quads(strip);
   // Section corners counter-clockwise seen against the direction of the beam: (depth to the left, upwards).
   const std::array<std::array<double, 2>, 4> section{{{half, -half}, {half, half}, {-half, half}, {-half, -half}}};
-  const auto place = [&](double t, const std::array<double, 2>& q) { return Quads::Place{c * t - m * q[1], q[0], from.z + m * t + c * q[1]}; };
+  const auto place = [&](double t, const std::array<double, 2>& q) {
+    return Quads::Place{c * t - m * q[1], q[0], from.z + m * t + c * q[1]};
+  };
   const std::vector<double> t = steps(space, 0, length);
   for (std::size_t i = 0; i + 1 < t.size(); ++i)
-    for (int k = 0; k < 4; ++k) quads.add(place(t[i], section[k]), place(t[i], section[(k + 1) % 4]), place(t[i + 1], section[(k + 1) % 4]), place(t[i + 1], section[k]));
+    for (int k = 0; k < 4; ++k)
+      quads.add(place(t[i], section[k]), place(t[i], section[(k + 1) % 4]), place(t[i + 1], section[(k + 1) % 4]),
+                place(t[i + 1], section[k]));
   quads.add(place(0, section[3]), place(0, section[2]), place(0, section[1]), place(0, section[0]));
   quads.add(place(length, section[0]), place(length, section[1]), place(length, section[2]), place(length, section[3]));
   Net net = std::move(quads.net);
   int side = 10;
   for (const room::Wall& wall : room.walls) clip(space, net, wall.line, side++);
   // An end that stands exactly on floor or ceiling stays, so that a column is a closed body.
-  const auto beyond = [&net](double sign, double z) { return std::any_of(net.vertices.begin(), net.vertices.end(), [=](const Position& v) { return sign * (v.z - z) > 0; }); };
+  const auto beyond = [&net](double sign, double z) {
+    return std::any_of(net.vertices.begin(), net.vertices.end(), [=](const Position& v) { return sign * (v.z - z) > 0; });
+  };
   if (beyond(-1, 0)) net.pieces = cut_at_height(space, net, net.pieces, 0, side++).left;
   if (beyond(1, height)) net.pieces = cut_at_height(space, net, net.pieces, height, side++).right;
   PlacedMesh mesh = to_mesh(strip, std::move(net));

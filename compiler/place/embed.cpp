@@ -1,5 +1,5 @@
-// Paper, "Object Embedding and Movement": an object's horizontal coordinates are read as coordinates of the stereographic or Poincaré disk. There lengths at the
-// origin count double, hence (x + iy)/2.
+// Paper, "Object Embedding and Movement": an object's horizontal coordinates are read as coordinates of the stereographic or Poincaré disk.
+// There lengths at the origin count double, hence (x + iy)/2.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ Point embedded(Space space, scene::Embedding embedding, const Vector3& p) {
 bool in_chart(Space space, scene::Embedding embedding, const Vector3& p) {
   const double r = std::hypot(p.x, p.y);
   if (!(r < 1e15) || !(std::fabs(p.z) < 1e15)) return false;
-  if (embedding == scene::Embedding::exponential) return r < (space == Space::spherical ? std::numbers::pi : space == Space::hyperbolic ? 30 : 1e15);
+  if (embedding == scene::Embedding::exponential)
+    return r < (space == Space::spherical ? std::numbers::pi : space == Space::hyperbolic ? 30 : 1e15);
   return space != Space::hyperbolic || r < 2 * (1 - 1e-9);
 }
 
@@ -51,7 +52,8 @@ bool is_too_long(Space space, scene::Embedding embedding, const Vector3& p, cons
   // Near the axis the error is below |z|·l²/8 with |z| ≤ reach/2 in the disk; eight times that settles nearly all edges of a fine mesh.
   if (reach2 < 0.25 && 0.25 * reach2 * (dx * dx + dy * dy) * (dx * dx + dy * dy) <= tolerance * tolerance) return false;
   const Point from = embedded(space, embedding, p), to = embedded(space, embedding, q);
-  // Not the middle alone: an edge through the axis has no error there, and an edge that is never split while its neighbours are breeds slivers without end.
+  // Not the middle alone: an edge through the axis has no error there, and an edge that is never split while its neighbours are breeds
+  // slivers without end.
   for (const double t : {0.25, 0.5, 0.75}) {
     const Point chord = geometry::normalised_point(space, (1 - t) * from + t * to);
     if (geometry::distance(space, chord, embedded(space, embedding, (1 - t) * p + t * q)) > tolerance) return true;
@@ -78,8 +80,10 @@ struct Fit {
 };
 
 // How an object scaled by `factor` about the foot of its axis would stand; measured, for hints.
-Fit fit(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at, double z, double factor, std::size_t stride) {
-  const geometry::Isometry room_from_object = geometry::translation_to(room.space, at) * geometry::rotation(room.space, object.turn.radians);
+Fit fit(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at, double z,
+        double factor, std::size_t stride) {
+  const geometry::Isometry room_from_object =
+      geometry::translation_to(room.space, at) * geometry::rotation(room.space, object.turn.radians);
   Fit worst;
   for (std::size_t i = 0; i < flat.positions.size(); i += stride) {
     const Vector3 p = factor * flat.positions[i];
@@ -91,9 +95,12 @@ Fit fit(const mesh::Mesh& flat, const scene::Object& object, const room::Room& r
   return worst;
 }
 
-std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at, double z) {
+std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at,
+                         double z) {
   const std::size_t stride = flat.positions.size() / 20000 + 1;
-  const auto fits = [&](const Point& place, double level, double factor) { return fit(flat, object, room, height, place, level, factor, stride).inside(); };
+  const auto fits = [&](const Point& place, double level, double factor) {
+    return fit(flat, object, room, height, place, level, factor, stride).inside();
+  };
   const auto largest = [&](const Point& place, double level) {
     double low = 0, high = 1;
     for (int i = 0; i < 20; ++i) (fits(place, level, 0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
@@ -107,7 +114,8 @@ std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, co
   const int axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
   // A little less than what fits, in three digits.
   const auto size = [&](double factor) {
-    const double true_size = embedded_length(room.space, object.embedding, factor * low[axis], factor * high[axis]), digits = std::pow(10, 2 - std::floor(std::log10(true_size)));
+    const double true_size = embedded_length(room.space, object.embedding, factor * low[axis], factor * high[axis]),
+                 digits = std::pow(10, 2 - std::floor(std::log10(true_size)));
     return std::floor(0.998 * true_size * digits) / digits;
   };
   const double here = largest(at, z);
@@ -116,8 +124,8 @@ std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, co
   return fmt::format("`size: {:.3g}` fits at the centre of the room", size(largest({}, 0)));
 }
 
-std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at,
-                                       double z) {
+std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh& flat, const scene::Object& object, const room::Room& room,
+                                       double height, const Point& at, double z) {
   Overhang worst{0, 0};
   double above = 0;
   bool outside = false;
@@ -132,7 +140,10 @@ std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh&
   const std::string where = outside && worst.distance >= above ? fmt::format("{} beyond wall {}", to_text(worst.distance), worst.wall + 1)
                                                                : fmt::format("{} above the ceiling", to_text(above));
   return make_error("place.object-outside-room", fmt::format("{} reaches {}", object.name.empty() ? "this object" : object.name, where),
-                    fitting_hint(flat, object, room, height, at, z), object.size_span.source ? object.size_span : object.place.span.source ? object.place.span : object.span);
+                    fitting_hint(flat, object, room, height, at, z),
+                    object.size_span.source    ? object.size_span
+                    : object.place.span.source ? object.place.span
+                                               : object.span);
 }
 
 // The object between file and room: centred, scaled, standing on z = 0, not yet turned; still flat.
@@ -155,9 +166,12 @@ Result<mesh::Mesh> flatten(const mesh::Mesh& mesh, const scene::Object& object, 
     const bool along_x = high.x - low.x >= high.y - low.y;
     const double from = along_x ? low.x : low.y, to = along_x ? high.x : high.y;
     if (!(to - from > 1e-9 * (high.z - low.z)))
-      return make_error("place.flat-object", fmt::format("{} has no horizontal extent that `size` could set", object.name), "leave `size` out", object.size_span);
+      return make_error("place.flat-object", fmt::format("{} has no horizontal extent that `size` could set", object.name),
+                        "leave `size` out", object.size_span);
     if (room.space == Space::spherical && *object.size >= std::numbers::pi)
-      return make_error("place.too-large", fmt::format("{} cannot be {} long on a sphere of circumference 2π", object.name, to_text(*object.size)), "", object.size_span);
+      return make_error("place.too-large",
+                        fmt::format("{} cannot be {} long on a sphere of circumference 2π", object.name, to_text(*object.size)), "",
+                        object.size_span);
     factor = scale_for_size(room.space, object.embedding, from, to, *object.size);
   }
   for (Vector3& p : flat.positions) {
@@ -178,13 +192,16 @@ double scale_for_size(Space space, scene::Embedding embedding, double low, doubl
   return 2 * t / (d + std::sqrt(std::fmax(0, d * d - 4 * k * a * b * t * t)));
 }
 
-Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room, double height, const EmbedOptions& options) {
+Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room, double height,
+                                const EmbedOptions& options) {
   Result<geometry::Position> at = locate(object.place, room, height, 0);
   if (!at) return located(std::move(at).error(), object.span);
   Result<mesh::Mesh> made = flatten(mesh, object, room);
   if (!made) return located(std::move(made).error(), object.span);
   if (room.space != Space::euclidean) {
-    made = mesh::refine(*made, [&](const Vector3& p, const Vector3& q) { return is_too_long(room.space, object.embedding, p, q, options.tolerance); }, options.max_triangles);
+    made = mesh::refine(
+        *made, [&](const Vector3& p, const Vector3& q) { return is_too_long(room.space, object.embedding, p, q, options.tolerance); },
+        options.max_triangles);
     if (!made) return located(std::move(made).error(), object.span);
   }
   mesh::Mesh& flat = *made;
@@ -194,7 +211,8 @@ Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& obj
   placed.triangles = std::move(flat.triangles);
   placed.look.assign(flat.material.begin(), flat.material.end());
   placed.look.resize(placed.triangles.size(), 0);
-  const geometry::Isometry room_from_object = geometry::translation_to(room.space, at->floor) * geometry::rotation(room.space, object.turn.radians);
+  const geometry::Isometry room_from_object =
+      geometry::translation_to(room.space, at->floor) * geometry::rotation(room.space, object.turn.radians);
   for (const Vector3& p : flat.positions) {
     const Point x = room_from_object * embedded(room.space, object.embedding, p);
     placed.floor.push_back(is_clearly_inside(room, x) ? x : rounded_into(room, x));

@@ -26,8 +26,8 @@ constexpr double kPi = std::numbers::pi;
 
 // ---- where the eye stands ---------------------------------------------------------------------------------------------------
 
-// The side of X, or, where it lies exactly on the line, the side of a point moved an infinitesimal way, the same way for all lines: of two triangles that
-// share an edge exactly one holds it (simulation of simplicity, Edelsbrunner and Mücke 1990).
+// The side of X, or, where it lies exactly on the line, the side of a point moved an infinitesimal way, the same way for all lines: of two
+// triangles that share an edge exactly one holds it (simulation of simplicity, Edelsbrunner and Mücke 1990).
 Side side_of_moved(const Ambient& p, const Ambient& q, const Ambient& x) {
   Side side = geometry::side_of(p, q, x);
   if (side == Side::on) side = geometry::side_of(p, q, {0, 1, 0});
@@ -48,7 +48,8 @@ bool is_inside(const PlacedMesh& mesh, const Position& eye) {
     const Side side = side_of_moved(p, q, x);
     if (side == Side::on || side_of_moved(q, r, x) != side || side_of_moved(r, p, x) != side) continue;
     // On S² the cone of the triangle and its opposite both pass the test; the eye's is the one with positive weights.
-    const double a = determinant(q, r, x), b = determinant(r, p, x), c = determinant(p, q, x), sum = a + b + c, whole = determinant(p, q, r);
+    const double a = determinant(q, r, x), b = determinant(r, p, x), c = determinant(p, q, x), sum = a + b + c,
+                 whole = determinant(p, q, r);
     if (!(sum * whole > 0)) continue;
     const double z = (a * mesh.z[t[0]] + b * mesh.z[t[1]] + c * mesh.z[t[2]]) / sum;
     (z >= eye.z ? above : below) ^= true;
@@ -58,13 +59,15 @@ bool is_inside(const PlacedMesh& mesh, const Position& eye) {
 
 Diagnostics wrong_place(const PlacedRoom& placed, const Position& eye, const SourceSpan& span) {
   if (geometry::contains(placed.room.outline, eye.floor) == Containment::on_border)
-    return {make_error("place.eye-in-wall", fmt::format("the eye stands exactly in wall {}", overhang(placed.room, eye.floor).wall + 1), "move it into the room", span)};
+    return {make_error("place.eye-in-wall", fmt::format("the eye stands exactly in wall {}", overhang(placed.room, eye.floor).wall + 1),
+                       "move it into the room", span)};
   if (!(eye.z > 0) || !(eye.z < placed.height))
     return {make_error("place.eye-outside-room", fmt::format("the eye is not between floor and ceiling: its height is {}", to_text(eye.z)),
                        fmt::format("the room is {} high", to_text(placed.height)), span)};
   for (const PlacedMesh& part : placed.parts)
     if ((part.kind == PartKind::object || part.kind == PartKind::frame) && is_inside(part, eye))
-      return {make_error("place.eye-inside-object", fmt::format("the eye stands inside {}", part.name), "move the eye or the object", span)};
+      return {
+          make_error("place.eye-inside-object", fmt::format("the eye stands inside {}", part.name), "move the eye or the object", span)};
   return {};
 }
 
@@ -79,7 +82,8 @@ Result<Position> centre_of(const PlacedRoom& placed, const std::string& name, co
     // The bounding box in the log chart about the mean of the vertices.
     Ambient sum{0, 0, 0};
     for (const Point& p : part.floor) sum = sum + p;
-    const geometry::Isometry room_from_box = geometry::translation_to(placed.room.space, geometry::normalised_point(placed.room.space, sum));
+    const geometry::Isometry room_from_box =
+        geometry::translation_to(placed.room.space, geometry::normalised_point(placed.room.space, sum));
     const geometry::Isometry box_from_room = geometry::inverse(room_from_box);
     Vector3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
     for (std::size_t i = 0; i < part.floor.size(); ++i) {
@@ -91,7 +95,8 @@ Result<Position> centre_of(const PlacedRoom& placed, const std::string& name, co
     return Position{room_from_box * geometry::point_from_log(placed.room.space, {middle.x, middle.y}), middle.z};
   }
   const std::string nearest = nearest_word(name, known);
-  return make_error("place.no-such-object", fmt::format("there is no object `{}` to look at", name), nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest), span);
+  return make_error("place.no-such-object", fmt::format("there is no object `{}` to look at", name),
+                    nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest), span);
 }
 
 Vector3 towards(const geometry::Isometry& room_from_eye, double eye_z, const Position& target) {
@@ -124,7 +129,8 @@ Vector3 default_direction(const PlacedRoom& placed, const Eye& eye) {
   std::size_t longest = 0;
   for (std::size_t i = 1; i < placed.room.walls.size(); ++i)
     if (placed.room.walls[i].length > placed.room.walls[longest].length * (1 + 1e-9)) longest = i;
-  return towards(eye.room_from_eye, eye.z, {room::point_on_wall(placed.room, static_cast<int>(longest), placed.room.walls[longest].length / 2), eye.z});
+  return towards(eye.room_from_eye, eye.z,
+                 {room::point_on_wall(placed.room, static_cast<int>(longest), placed.room.walls[longest].length / 2), eye.z});
 }
 
 Result<Vector3> direction_of(const scene::Camera& camera, const PlacedRoom& placed, const Eye& eye) {
@@ -147,7 +153,9 @@ Result<Vector3> direction_of(const scene::Camera& camera, const PlacedRoom& plac
     target = *there;
   }
   const Vector3 direction = towards(eye.room_from_eye, eye.z, target);
-  if (!(geometry::length(direction) > 1e-12)) return make_error("place.looks-at-itself", "the camera looks at the point where it stands", "move it, or give another `look_at`", look_at.span);
+  if (!(geometry::length(direction) > 1e-12))
+    return make_error("place.looks-at-itself", "the camera looks at the point where it stands", "move it, or give another `look_at`",
+                      look_at.span);
   return direction;
 }
 
@@ -176,7 +184,8 @@ std::optional<std::array<double, 2>> pixel_of(const Eye& eye, const Vector3& dir
     return std::array<double, 2>{w / 2 * (1 + r / t), h / 2 - w / 2 * u / t};
   }
   const double azimuth = std::atan2(r, f), flat = std::hypot(r, f);
-  if (eye.projection == Projection::panorama) return std::array<double, 2>{w * (azimuth / (2 * kPi) + 0.5), h * (0.5 - std::atan2(u, flat) / kPi)};
+  if (eye.projection == Projection::panorama)
+    return std::array<double, 2>{w * (azimuth / (2 * kPi) + 0.5), h * (0.5 - std::atan2(u, flat) / kPi)};
   if (!(flat > 0)) return std::nullopt;
   return std::array<double, 2>{w * (azimuth / eye.fov.radians + 0.5), h / 2 - w * (u / flat) / eye.fov.radians};
 }

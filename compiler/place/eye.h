@@ -23,22 +23,25 @@ struct Eye {
 
 /// Direction in eye coordinates through the picture at (x, y) pixels, (0, 0) the upper left corner, pixel centres at +0.5. Unit length.
 /// perspective: F + (2x/W − 1)·tan(fov/2)·R + (1 − 2y/H)·(H/W)·tan(fov/2)·U.
-/// panorama: azimuth 2π(x/W − ½) to the right of F, elevation π(½ − y/H).  cylinder: azimuth fov·(x/W − ½), height (1 − 2y/H)·(H/W)·fov/2 (square pixels at the horizon).
+/// panorama: azimuth 2π(x/W − ½) to the right of F, elevation π(½ − y/H).  cylinder: azimuth fov·(x/W − ½), height (1 − 2y/H)·(H/W)·fov/2
+/// (square pixels at the horizon).
 [[nodiscard]] geometry::Vector3 direction_through(const Eye& eye, double x, double y);
-/// Where in the picture a direction is seen, in the same pixels (perhaps beyond its border); nothing behind a perspective camera, and nothing
-/// straight above or below a cylinder.
+/// Where in the picture a direction is seen, in the same pixels (perhaps beyond its border); nothing behind a perspective camera, and
+/// nothing straight above or below a cylinder.
 [[nodiscard]] std::optional<std::array<double, 2>> pixel_of(const Eye& eye, const geometry::Vector3& direction);
 /// Pixels per radian at the centre of the picture.
 [[nodiscard]] double pixels_per_radian(const Eye& eye);
 
 /// Places the camera of a scene in its furnished room.
-/// Makes:       an eye that looks at an object (the centre of its bounding box), a place (at the eye's height if it has none) or in a direction along the geodesic
-///              there. Default: the centre of the room at the eye's height; an eye that stands there looks towards the middle of the longest wall.
+/// Makes:       an eye that looks at an object (the centre of its bounding box), a place (at the eye's height if it has none) or in a
+///              direction along the geodesic there. Default: the centre of the room at the eye's height; an eye that stands there looks
+///              towards the middle of the longest wall.
 ///              Panoramas and cylinders stay level: they look there with the horizon in the middle.
 ///              Looking straight up or down is fine: the upper edge of the picture then shows what lies behind or before the azimuth.
-/// Diagnostics: place.eye-outside-room (and how far), place.eye-in-wall (exactly on the border), place.eye-inside-object (names it), those of `locate`,
-///              place.no-such-object, place.looks-at-itself.
-/// Exact:       inside the room by exact predicates; inside an object by the parity of the triangles above and below the eye, their footprints tested exactly.
+/// Diagnostics: place.eye-outside-room (and how far), place.eye-in-wall (exactly on the border), place.eye-inside-object (names it), those
+///              of `locate`, place.no-such-object, place.looks-at-itself.
+/// Exact:       inside the room by exact predicates; inside an object by the parity of the triangles above and below the eye, their
+///              footprints tested exactly.
 [[nodiscard]] Result<Eye> make_eye(const scene::Scene& scene, const PlacedRoom& room);
 
 }  // namespace orbc::place

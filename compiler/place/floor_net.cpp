@@ -1,5 +1,5 @@
-// Axial coordinates have geodesic grid lines: u = i·cell is the line cosκ(u)·x − sinκ(u)·w = 0, and the lines of one family do not meet inside the
-// room (on S² they meet at the poles on the border w = 0). So each cut splits only what lies beyond the one before.
+// Axial coordinates have geodesic grid lines: u = i·cell is the line cosκ(u)·x − sinκ(u)·w = 0, and the lines of one family do not meet
+// inside the room (on S² they meet at the poles on the border w = 0). So each cut splits only what lies beyond the one before.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,8 +49,8 @@ void cut_into_slabs(Space space, Net& net, const Family& lines, double cell, boo
   net.pieces = std::move(done);
 }
 
-// A straight cut through a half sphere has antipodal ends, and where one could cut their edge is anybody's guess. So the floor is first halved along v = 0 with the
-// centre as a vertex of the cut; from then on no edge is longer than a quarter.
+// A straight cut through a half sphere has antipodal ends, and where one could cut their edge is anybody's guess. So the floor is first
+// halved along v = 0 with the centre as a vertex of the cut; from then on no edge is longer than a quarter.
 void halve_at_centre(Net& net) {
   Halves halves = cut(Space::spherical, net, net.pieces, grid_line(Space::spherical, 0, true), -1);
   net.pieces = std::move(halves.left);
@@ -80,8 +80,9 @@ Result<Net> floor_net(const room::Room& room, double cell, std::size_t max_cells
   if (cell == 0) return net;
   const double u_cells = (high[0] - low[0]) / cell + 2, v_cells = (high[1] - low[1]) / cell + 2;
   if (!(cell > 0) || !(u_cells * v_cells <= static_cast<double>(max_cells)))
-    return make_error("place.too-many-cells", fmt::format("cells of {:.4g} cut this floor into more than {} pieces", cell, max_cells),
-                      fmt::format("a cell of {:.2g} fits", 1.3 * std::sqrt((high[0] - low[0]) * (high[1] - low[1]) / static_cast<double>(max_cells))));
+    return make_error(
+        "place.too-many-cells", fmt::format("cells of {:.4g} cut this floor into more than {} pieces", cell, max_cells),
+        fmt::format("a cell of {:.2g} fits", 1.3 * std::sqrt((high[0] - low[0]) * (high[1] - low[1]) / static_cast<double>(max_cells))));
   if (room.space == Space::spherical) halve_at_centre(net);
   cut_into_slabs(room.space, net, family(low[0], high[0], cell), cell, false);
   cut_into_slabs(room.space, net, family(low[1], high[1], cell), cell, true);

@@ -54,7 +54,8 @@ struct Builder {
   }
 
   std::uint16_t add(const Look& look) {
-    if (placed.looks.size() == 0xffff) errors.push_back(make_error("place.too-many-looks", "this scene has more than 65535 different surfaces", "leave some objects out"));
+    if (placed.looks.size() == 0xffff)
+      errors.push_back(make_error("place.too-many-looks", "this scene has more than 65535 different surfaces", "leave some objects out"));
     if (placed.looks.size() < 0xffff + 1) placed.looks.push_back(look);
     return static_cast<std::uint16_t>(placed.looks.size() - 1);
   }
@@ -89,12 +90,14 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
   Shell shell;
   if (!spec.floor.mirror) shell.floor = spec.floor.material;
   if (!spec.ceiling.mirror) shell.ceiling = spec.ceiling.material;
-  for (std::size_t i = 0; i < builder.room.walls.size(); ++i) shell.walls.push_back(i < spec.walls.size() ? spec.walls[i].material : Material{});
+  for (std::size_t i = 0; i < builder.room.walls.size(); ++i)
+    shell.walls.push_back(i < spec.walls.size() ? spec.walls[i].material : Material{});
   PanelOptions options = builder.options.panels;
   const auto measure = [&](const Material& material) {
     if (material.pattern != Pattern::texture) return;
     const int index = builder.texture(material.texture);
-    if (index >= 0) options.texture_size = std::max({options.texture_size, builder.placed.textures[index].width, builder.placed.textures[index].height});
+    if (index >= 0)
+      options.texture_size = std::max({options.texture_size, builder.placed.textures[index].width, builder.placed.textures[index].height});
   };
   if (shell.floor) measure(*shell.floor);
   if (shell.ceiling) measure(*shell.ceiling);
@@ -102,7 +105,9 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
   Result<std::vector<PlacedMesh>> panels = make_panels(builder.room, spec.height, shell, mirrors.mirrors, options);
   if (!panels) return builder.fail(std::move(panels).error(), spec.span);
   for (PlacedMesh& panel : *panels) {
-    const Material& material = panel.kind == PartKind::floor ? *shell.floor : panel.kind == PartKind::ceiling ? *shell.ceiling : shell.walls[panel.wall];
+    const Material& material = panel.kind == PartKind::floor     ? *shell.floor
+                               : panel.kind == PartKind::ceiling ? *shell.ceiling
+                                                                 : shell.walls[panel.wall];
     const std::vector<std::uint16_t> looks = builder.looks_of(material);
     builder.add_part(std::move(panel), looks, material.span);
   }
@@ -156,7 +161,8 @@ std::vector<std::uint16_t> file_looks(Builder& builder, const mesh::Mesh& mesh, 
 // Adds a mesh in one material. Checkers are solid: cells of the mesh's own coordinates.
 void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const SourceSpan& span) {
   if (material.pattern == Pattern::texture && mesh.uv.empty()) {
-    builder.warnings.push_back(make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown in its plain colour", mesh.name),
+    builder.warnings.push_back(make_warning("place.no-uv",
+                                            fmt::format("{} has no texture coordinates; it is shown in its plain colour", mesh.name),
                                             "give it a `color`, or export the mesh with uv", material.span));
     material.pattern = Pattern::plain;
   }

@@ -18,10 +18,11 @@ struct Furnished {
 };
 
 /// Furnishes a realised room: mirrors, panels, frames, objects; loads the meshes and pictures that the scene names.
-/// Makes:       parts in the order floor, ceiling, walls, frames, objects (as the scene lists them). Mirrors in the order of the walls and, on one wall, of the
-///              scene; where two overlap the first listed counts. End walls of a strip carry no mirrors. Looks of textured triangles have their uv in [0, 1]².
-/// Diagnostics: all errors of all objects together: those of `locate`, `place_object`, `make_panels`, `make_beam`, `wrapped`, of mesh loading and pictures;
-///              place.too-many-looks. Warnings: place.mirror-outside-wall, place.no-uv, and the mesh's own.
+/// Makes:       parts in the order floor, ceiling, walls, frames, objects (as the scene lists them). Mirrors in the order of the walls and,
+///              on one wall, of the scene; where two overlap the first listed counts. End walls of a strip carry no mirrors. Looks of
+///              textured triangles have their uv in [0, 1]².
+/// Diagnostics: all errors of all objects together: those of `locate`, `place_object`, `make_panels`, `make_beam`, `wrapped`, of mesh
+///              loading and pictures; place.too-many-looks. Warnings: place.mirror-outside-wall, place.no-uv, and the mesh's own.
 [[nodiscard]] Result<Furnished> furnish(const scene::Scene& scene, const room::Room& room, const FurnishOptions& options = {});
 
 /// The mirrors of all surfaces, clipped to their walls; what has nothing left of it is left out with a warning.

@@ -1,5 +1,5 @@
-// A point at given distances from two walls: walls are covectors l with value sinκ(distance) at X. Their vectors L = (κ l_w, l_x, l_y) span a
-// plane in the form B(U, V) = κ U_w V_w + U_x V_x + U_y V_y, so X = αL_a + βL_b + tN with N orthogonal to both; α, β follow from the two
+// A point at given distances from two walls: walls are covectors l with value sinκ(distance) at X. Their vectors L = (κ l_w, l_x, l_y) span
+// a plane in the form B(U, V) = κ U_w V_w + U_x V_x + U_y V_y, so X = αL_a + βL_b + tN with N orthogonal to both; α, β follow from the two
 // distances and t from B(X, X) = κ. Both signs of t are points of the space; the one in the room is meant.
 #include "compiler/place/locate.h"
 
@@ -55,9 +55,9 @@ Result<Point> toward(const room::Room& room, const scene::AtToward& at, const So
   const int count = static_cast<int>(at.corner ? room.corners.size() : room.walls.size());
   if (at.number < 1 || at.number > count) {
     const char* what = at.corner ? "corner" : "wall";
-    return make_error(at.corner ? "place.no-such-corner" : "place.no-such-wall",
-                      fmt::format("there is no {} {} in this room", what, at.number),
-                      count == 0 ? fmt::format("this room has no {}s", what) : fmt::format("{}s are numbered from 1 to {}", what, count), span);
+    return make_error(
+        at.corner ? "place.no-such-corner" : "place.no-such-wall", fmt::format("there is no {} {} in this room", what, at.number),
+        count == 0 ? fmt::format("this room has no {}s", what) : fmt::format("{}s are numbered from 1 to {}", what, count), span);
   }
   const int i = at.number - 1;
   const Point goal = at.corner ? room.corners[i].at : room::point_on_wall(room, i, room.walls[i].length / 2);
@@ -143,7 +143,8 @@ double reach(const room::Room& room, double azimuth) {
     const double towards = -(wall.line.x * std::cos(azimuth) + wall.line.y * std::sin(azimuth));
     double r = std::numeric_limits<double>::infinity();
     if (room.space == Space::spherical) r = std::atan2(wall.line.w, towards);
-    else if (towards > 0 && (room.space == Space::euclidean || wall.line.w < towards)) r = geometry::atan_k(room.space, wall.line.w / towards);
+    else if (towards > 0 && (room.space == Space::euclidean || wall.line.w < towards))
+      r = geometry::atan_k(room.space, wall.line.w / towards);
     if (r >= 0) nearest = std::fmin(nearest, r);
   }
   return nearest;

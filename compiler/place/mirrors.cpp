@@ -34,7 +34,8 @@ ClippedMirrors clipped_mirrors(const scene::RoomSpec& spec, const room::Room& ro
         result.sources.push_back(&mirror);
       } else {
         result.warnings.push_back(make_warning("place.mirror-outside-wall", fmt::format("this mirror has no part on wall {}", i + 1),
-                                               fmt::format("the wall is {} long and {} high", to_text(length), to_text(spec.height)), mirror.source));
+                                               fmt::format("the wall is {} long and {} high", to_text(length), to_text(spec.height)),
+                                               mirror.source));
       }
     }
   }

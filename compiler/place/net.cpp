@@ -1,5 +1,5 @@
-// Cutting convex polygons by lines in homogeneous coordinates (Sutherland, Hodgman 1974): a line is a linear form on ambient vectors, so points
-// at infinity of the gnomonic chart (the border of a hemisphere, w = 0) need no division and no special case.
+// Cutting convex polygons by lines in homogeneous coordinates (Sutherland, Hodgman 1974): a line is a linear form on ambient vectors, so
+// points at infinity of the gnomonic chart (the border of a hemisphere, w = 0) need no division and no special case.
 #include "compiler/place/net.h"
 
 #include <algorithm>
@@ -110,7 +110,8 @@ std::vector<mesh::Triangle> triangulate(geometry::Space space, Net& net, const N
   const std::size_t n = loop.size();
   std::map<int, int> edges_of_side;
   for (const Net::Edge& edge : loop) ++edges_of_side[edge.side];
-  // A triangle of the fan is flat when its edge lies on a side that the hub lies on too: the hub's sides may hold no other edges than its own two.
+  // A triangle of the fan is flat when its edge lies on a side that the hub lies on too: the hub's sides may hold no other edges than its
+  //                                                                                      own two.
   for (std::size_t i = 0; i < n; ++i) {
     const int before = loop[(i + n - 1) % n].side, after = loop[i].side;
     const int own = before == after ? 2 : 1;

@@ -1,5 +1,5 @@
-// Every panel is first cut by itself into convex pieces; then panels that meet exchange the points of their common edge (the foot of a wall, its head, the
-// upright edge in a corner), and only then are the pieces cut into triangles. So the shell has no T-junction anywhere.
+// Every panel is first cut by itself into convex pieces; then panels that meet exchange the points of their common edge (the foot of a
+// wall, its head, the upright edge in a corner), and only then are the pieces cut into triangles. So the shell has no T-junction anywhere.
 #include "compiler/place/panels.h"
 
 #include <fmt/format.h>
@@ -64,7 +64,8 @@ double uv_error(Space space, const Net& net, double cell) {
   return worst;
 }
 
-// The lines of both axial families meet on the border w = 0 of a half sphere, which they therefore do not divide; lines through the centre do.
+// The lines of both axial families meet on the border w = 0 of a half sphere, which they therefore do not divide; lines through the centre
+// do.
 void cut_by_spokes(Net& net, double step) {
   const int count = static_cast<int>(std::ceil(std::numbers::pi / step));
   for (int i = 0; i < count; ++i) {
@@ -147,8 +148,8 @@ PlacedMesh level_mesh(const room::Room& room, Net net, double z, bool ceiling, c
 
 // ---- walls ------------------------------------------------------------------------------------------------------------------
 
-// Longest piece of a wall on which a texture's place, affine in the triangle, stays true: along an edge of length l the arc length differs from the
-// affine one by at most 0.0161·l³ (atanh(x·tanh h) − x·h = −h³(x − x³)/3 + …, h = l/2, |x − x³| ≤ 0.385).
+// Longest piece of a wall on which a texture's place, affine in the triangle, stays true: along an edge of length l the arc length differs
+// from the affine one by at most 0.0161·l³ (atanh(x·tanh h) − x·h = −h³(x − x³)/3 + …, h = l/2, |x − x³| ≤ 0.385).
 double texture_step(Space space, const scene::Material& material, const PanelOptions& options) {
   if (space == Space::euclidean || material.pattern != scene::Pattern::texture) return 1e9;
   return std::fmin(1, std::cbrt(options.texel_error / options.texture_size * material.cell / 0.0161));
@@ -189,7 +190,8 @@ Result<WallGrid> wall_grid(const room::Room& room, int wall, double height, cons
       const bool open = std::any_of(mirrors.begin(), mirrors.end(), [&](const PlacedMirror& m) {
         return m.wall == wall && m.span[0] <= at && at <= m.span[1] && m.height[0] <= level && level <= m.height[1];
       });
-      const int parity = has_cells(material) ? (static_cast<int>(std::floor(at / cell)) + static_cast<int>(std::floor(level / cell))) & 1 : 0;
+      const int parity =
+          has_cells(material) ? (static_cast<int>(std::floor(at / cell)) + static_cast<int>(std::floor(level / cell))) & 1 : 0;
       if (!open) grid.cells.push_back({i, j, parity});
     }
   return grid;
@@ -212,7 +214,8 @@ WallEdges edges_of(const WallGrid& grid) {
 }
 
 // Loops run clockwise in (s, z): seen from inside the room, s runs to the left.
-PlacedMesh wall_mesh(const room::Room& room, int wall, const WallGrid& grid, const WallEdges& shared, const Rail& rail, const scene::Material& material) {
+PlacedMesh wall_mesh(const room::Room& room, int wall, const WallGrid& grid, const WallEdges& shared, const Rail& rail,
+                     const scene::Material& material) {
   Net net;
   std::vector<std::array<double, 2>> places;
   std::map<std::pair<double, double>, std::uint32_t> known;
@@ -251,7 +254,8 @@ PlacedMesh wall_mesh(const room::Room& room, int wall, const WallGrid& grid, con
       mesh.look.push_back(static_cast<std::uint16_t>(material.pattern == scene::Pattern::checker ? c.tag : 0));
     }
     // A hub stands in the middle of its cell.
-    while (places.size() < net.vertices.size()) places.push_back({arc_on_wall(room, wall, net.vertices[places.size()].floor), net.vertices[places.size()].z});
+    while (places.size() < net.vertices.size())
+      places.push_back({arc_on_wall(room, wall, net.vertices[places.size()].floor), net.vertices[places.size()].z});
   }
   for (std::size_t v = 0; v < net.vertices.size(); ++v) {
     mesh.floor.push_back(net.vertices[v].floor);
@@ -266,8 +270,8 @@ void merge(std::set<double>& into, const std::set<double>& from) { into.insert(f
 
 }  // namespace
 
-Result<std::vector<PlacedMesh>> make_panels(const room::Room& room, double height, const Shell& shell, const std::vector<PlacedMirror>& mirrors,
-                                            const PanelOptions& options) {
+Result<std::vector<PlacedMesh>> make_panels(const room::Room& room, double height, const Shell& shell,
+                                            const std::vector<PlacedMirror>& mirrors, const PanelOptions& options) {
   const std::size_t n = room.walls.size();
   std::vector<Rail> rails = make_rails(room);
   Heights heights(height);

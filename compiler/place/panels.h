@@ -23,9 +23,10 @@ struct Shell {
 
 /// Builds floor, ceiling and the plain parts of the walls as geodesic triangles.
 /// In:    mirrors clipped to their walls (`clipped_mirrors`); their rectangles are cut out.
-/// Makes: parts in the order floor, ceiling, wall 1, wall 2, …, without the empty ones. Chequered surfaces are cut along their cells: floor and ceiling along
-///        squares of `cell` in axial coordinates, walls along (arc length, z); look 0 is `color`, look 1 is `second`. Textured ones carry uv in repeats
-///        of `cell`: floor and ceiling in the disk chart (true size at the centre), walls in (arc length, z), v downwards; not yet cut at whole numbers.
+/// Makes: parts in the order floor, ceiling, wall 1, wall 2, …, without the empty ones. Chequered surfaces are cut along their cells: floor
+///        and ceiling along squares of `cell` in axial coordinates, walls along (arc length, z); look 0 is `color`, look 1 is `second`.
+///        Textured ones carry uv in repeats of `cell`: floor and ceiling in the disk chart (true size at the centre), walls in (arc length,
+///        z), v downwards; not yet cut at whole numbers.
 ///        The shell is watertight: panels that meet share every vertex of their common edge, bit by bit.
 /// Diagnostics: place.too-many-cells; the hint names a cell size that fits.
 [[nodiscard]] Result<std::vector<PlacedMesh>> make_panels(const room::Room& room, double height, const Shell& shell,

@@ -13,15 +13,18 @@ struct EmbedOptions {
 
 /// Embeds an object's mesh and moves it to its place.
 /// In:          a mesh as its file has it (object.up = 'y': its y axis points up); the room and its height.
-/// Makes:       the mesh centred by its volume centroid (surface centroid if it is open) on the vertical axis, scaled so that its longer horizontal extent is
-///              `object.size`, turned, standing at height `place.z` (its lowest point; on the floor if missing). Conformal: horizontal coordinates (x, y)
-///              become the disk point (x + iy)/2 (E²: x + iy), so that lengths on the axis are true. Exponential: they become log coordinates, so that
-///              distances from the axis are true. Heights are scaled like the rest. Then the Möbius translation of the place moves it. `look` is the mesh's own
-///              `material`; `pattern_position` is centred and scaled, but not turned.
-/// Error:       a geodesic triangle departs from the embedded flat one by at most about `tolerance`: longer edges are halved, each judged by itself.
-/// Exact:       containment, for every vertex as stored; touching walls, floor and ceiling is allowed. Since the room is convex, all between is inside too.
-/// Diagnostics: those of `locate`; place.object-outside-room (wall or ceiling, largest overhang, a size that fits); place.too-large for its space;
-///              place.flat-object (`size` of a mesh without horizontal extent); those of mesh::refine.
+/// Makes:       the mesh centred by its volume centroid (surface centroid if it is open) on the vertical axis, scaled so that its longer
+///              horizontal extent is `object.size`, turned, standing at height `place.z` (its lowest point; on the floor if missing).
+///              Conformal: horizontal coordinates (x, y) become the disk point (x + iy)/2 (E²: x + iy), so that lengths on the axis are
+///              true. Exponential: they become log coordinates, so that distances from the axis are true. Heights are scaled like the rest.
+///              Then the Möbius translation of the place moves it. `look` is the mesh's own `material`; `pattern_position` is centred and
+///              scaled, but not turned.
+/// Error:       a geodesic triangle departs from the embedded flat one by at most about `tolerance`: longer edges are halved, each judged
+///              by itself.
+/// Exact:       containment, for every vertex as stored; touching walls, floor and ceiling is allowed. Since the room is convex, all
+///              between is inside too.
+/// Diagnostics: those of `locate`; place.object-outside-room (wall or ceiling, largest overhang, a size that fits); place.too-large for its
+///              space; place.flat-object (`size` of a mesh without horizontal extent); those of mesh::refine.
 [[nodiscard]] Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room, double height,
                                               const EmbedOptions& options = {});
 

@@ -14,7 +14,8 @@ using geometry::Position;
 
 constexpr double kSame = 1e-9;   // of the room's size
 
-/// A straight border of the room: the foot or head of a wall (parameter: arc length), or the upright edge where a wall starts (parameter: height).
+/// A straight border of the room: the foot or head of a wall (parameter: arc length), or the upright edge where a wall starts (parameter:
+///                                height).
 struct Seam {
   const room::Room* room = nullptr;
   int wall = 0;
@@ -29,7 +30,8 @@ struct Seam {
       if (std::fabs(x.w - start.w) + std::fabs(x.x - start.x) + std::fabs(x.y - start.y) > same * (1 + std::fabs(x.w))) return std::nullopt;
       return mesh.z[v];
     }
-    if (std::fabs(mesh.z[v] - z) > same || std::fabs(geometry::signed_distance(room->space, room->walls[wall].line, x)) > same) return std::nullopt;
+    if (std::fabs(mesh.z[v] - z) > same || std::fabs(geometry::signed_distance(room->space, room->walls[wall].line, x)) > same)
+      return std::nullopt;
     return arc_on_wall(*room, wall, x);
   }
   // How far along in b, from a to b, the parameter p lies.
@@ -97,7 +99,8 @@ void divide(const Seam& seam, PlacedMesh& mesh, const Places& places) {
       const double low = std::fmin(run.from, run.to) + seam.same, high = std::fmax(run.from, run.to) - seam.same;
       std::map<double, Position> between;
       for (const double shift : {0.0, seam.period()}) {
-        for (auto at = places.lower_bound(low - shift); at != places.end() && at->first < high - shift; ++at) between.emplace(at->first + shift, at->second);
+        for (auto at = places.lower_bound(low - shift); at != places.end() && at->first < high - shift; ++at)
+          between.emplace(at->first + shift, at->second);
         if (seam.period() == 0) break;
       }
       for (const auto& [p, at] : between) border.push_back(insert(seam, mesh, at, a, b, run, p));
@@ -109,7 +112,8 @@ void divide(const Seam& seam, PlacedMesh& mesh, const Places& places) {
       triangles.push_back(t), look.push_back(mesh.look[i]);
       continue;
     }
-    for (std::size_t j = 0; j + 1 < border.size(); ++j) triangles.push_back({border[j], border[j + 1], t[(k + 2) % 3]}), look.push_back(mesh.look[i]);
+    for (std::size_t j = 0; j + 1 < border.size(); ++j)
+      triangles.push_back({border[j], border[j + 1], t[(k + 2) % 3]}), look.push_back(mesh.look[i]);
   }
   mesh.triangles = std::move(triangles);
   mesh.look = std::move(look);
@@ -128,9 +132,12 @@ std::vector<PlacedMesh> sewn(const room::Room& room, double height, std::vector<
       if (belongs(panel)) divide(seam, panel, places);
   };
   for (int i = 0; i < n; ++i) {
-    sew({&room, i, false, 0, same}, [i](const PlacedMesh& p) { return p.kind == PartKind::floor || (p.kind == PartKind::wall && p.wall == i); });
-    sew({&room, i, false, height, same}, [i](const PlacedMesh& p) { return p.kind == PartKind::ceiling || (p.kind == PartKind::wall && p.wall == i); });
-    sew({&room, i, true, 0, same}, [i, n](const PlacedMesh& p) { return p.kind == PartKind::wall && (p.wall == i || p.wall == (i + n - 1) % n); });
+    sew({&room, i, false, 0, same},
+        [i](const PlacedMesh& p) { return p.kind == PartKind::floor || (p.kind == PartKind::wall && p.wall == i); });
+    sew({&room, i, false, height, same},
+        [i](const PlacedMesh& p) { return p.kind == PartKind::ceiling || (p.kind == PartKind::wall && p.wall == i); });
+    sew({&room, i, true, 0, same},
+        [i, n](const PlacedMesh& p) { return p.kind == PartKind::wall && (p.wall == i || p.wall == (i + n - 1) % n); });
   }
   return panels;
 }

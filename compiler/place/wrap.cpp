@@ -37,9 +37,11 @@ Pieces pieces_of(const PlacedMesh& mesh) {
   return pieces;
 }
 
-// Cuts where the function `at` of the vertices passes a whole number. `set(v, n)` makes it exactly n at a new vertex. Stops when there are too many pieces.
+// Cuts where the function `at` of the vertices passes a whole number. `set(v, n)` makes it exactly n at a new vertex. Stops when there are
+// too many pieces.
 template <class At, class Set>
-Pieces cut_at_whole_numbers(geometry::Space space, PlacedMesh& mesh, Pieces pieces, int axis, std::size_t max_pieces, const At& at, const Set& set) {
+Pieces cut_at_whole_numbers(geometry::Space space, PlacedMesh& mesh, Pieces pieces, int axis, std::size_t max_pieces, const At& at,
+                            const Set& set) {
   // Pieces wait in the slab where they begin, so that a line touches only those that reach it from below.
   std::map<int, Pieces> waiting;
   for (Net::Piece& piece : pieces) {
@@ -48,7 +50,9 @@ Pieces cut_at_whole_numbers(geometry::Space space, PlacedMesh& mesh, Pieces piec
     waiting[static_cast<int>(std::floor(low))].push_back(std::move(piece));
   }
   Pieces done, active;
-  const auto take = [](Pieces& all, Pieces& more) { all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end())); };
+  const auto take = [](Pieces& all, Pieces& more) {
+    all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
   for (int line = waiting.empty() ? 0 : waiting.begin()->first + 1; !waiting.empty() || !active.empty(); ++line) {
     if (active.empty()) line = waiting.begin()->first + 1;
     const auto fresh = waiting.find(line - 1);
@@ -102,14 +106,18 @@ Result<PlacedMesh> wrapped(geometry::Space space, PlacedMesh mesh, std::size_t m
   for (const auto& uv : mesh.uv)
     for (int i = 0; i < 2; ++i) low[i] = std::fmin(low[i], uv[i]), high[i] = std::fmax(high[i], uv[i]);
   if (!(high[0] - low[0] < 2000) || !(high[1] - low[1] < 2000))
-    return make_error("place.too-many-repeats", fmt::format("the texture of {} repeats more than 2000 times", mesh.name), "a larger `cell` fits");
+    return make_error("place.too-many-repeats", fmt::format("the texture of {} repeats more than 2000 times", mesh.name),
+                      "a larger `cell` fits");
   if (low[0] >= 0 && low[1] >= 0 && high[0] <= 1 && high[1] <= 1) return mesh;
   Pieces pieces = pieces_of(mesh);
   for (int axis = 0; axis < 2; ++axis) {
-    pieces = cut_at_whole_numbers(space, mesh, std::move(pieces), axis, max_triangles, [&](std::uint32_t v) { return static_cast<double>(mesh.uv[v][axis]); },
-                                  [&](std::uint32_t v, int line) { mesh.uv[v][axis] = static_cast<float>(line); });
+    pieces = cut_at_whole_numbers(
+        space, mesh, std::move(pieces), axis, max_triangles, [&](std::uint32_t v) { return static_cast<double>(mesh.uv[v][axis]); },
+        [&](std::uint32_t v, int line) { mesh.uv[v][axis] = static_cast<float>(line); });
     if (pieces.size() > max_triangles)
-      return make_error("place.too-many-repeats", fmt::format("the texture of {} cuts it into more than {} pieces", mesh.name, max_triangles), "a larger `cell` fits");
+      return make_error("place.too-many-repeats",
+                        fmt::format("the texture of {} cuts it into more than {} pieces", mesh.name, max_triangles),
+                        "a larger `cell` fits");
   }
   PlacedMesh result;
   result.kind = mesh.kind, result.name = mesh.name, result.wall = mesh.wall;
@@ -118,7 +126,8 @@ Result<PlacedMesh> wrapped(geometry::Space space, PlacedMesh mesh, std::size_t m
   for (Net::Piece& piece : pieces) {
     const std::array<int, 2> repeat = repeat_of(mesh, piece);
     for (Net::Edge& e : piece.loop) {
-      const auto [at, is_new] = known.try_emplace({static_cast<int>(e.vertex), repeat[0], repeat[1]}, static_cast<std::uint32_t>(result.floor.size()));
+      const auto [at, is_new] =
+          known.try_emplace({static_cast<int>(e.vertex), repeat[0], repeat[1]}, static_cast<std::uint32_t>(result.floor.size()));
       if (is_new) {
         result.floor.push_back(mesh.floor[e.vertex]);
         result.z.push_back(mesh.z[e.vertex]);
@@ -146,16 +155,20 @@ Result<PlacedMesh> checkered(geometry::Space space, PlacedMesh mesh, double cell
     double low = 0, high = 0;
     for (std::uint32_t v = 0; v < mesh.pattern_position.size(); ++v) low = std::fmin(low, at(v)), high = std::fmax(high, at(v));
     if (high - low < 10'000)
-      pieces = cut_at_whole_numbers(space, mesh, std::move(pieces), axis, max_triangles, at, [&](std::uint32_t v, int line) { mesh.pattern_position[v].*kAxes[axis] = line * cell; });
+      pieces = cut_at_whole_numbers(space, mesh, std::move(pieces), axis, max_triangles, at,
+                                    [&](std::uint32_t v, int line) { mesh.pattern_position[v].*kAxes[axis] = line * cell; });
     if (high - low >= 10'000 || pieces.size() > max_triangles)
-      return make_error("place.too-many-cells", fmt::format("cells of {:.4g} cut {} into more than {} pieces", cell, mesh.name, max_triangles), "a larger `cell` fits");
+      return make_error("place.too-many-cells",
+                        fmt::format("cells of {:.4g} cut {} into more than {} pieces", cell, mesh.name, max_triangles),
+                        "a larger `cell` fits");
   }
   sort_by_triangle(pieces);
   mesh.triangles.clear();
   mesh.look.clear();
   for (const Net::Piece& piece : pieces) {
     Vector3 middle;
-    for (const Net::Edge& e : piece.loop) middle = middle + (1.0 / static_cast<double>(piece.loop.size())) * mesh.pattern_position[e.vertex];
+    for (const Net::Edge& e : piece.loop)
+      middle = middle + (1.0 / static_cast<double>(piece.loop.size())) * mesh.pattern_position[e.vertex];
     // A face that lies in a plane of the grid belongs to the cell above: rounding must not speckle it.
     const auto number = [cell](double x) { return std::floor(x / cell + 1e-6); };
     const double cells = number(middle.x) + number(middle.y) + number(middle.z);

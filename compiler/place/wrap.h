@@ -6,7 +6,8 @@
 
 namespace orbc::place {
 
-/// Cuts a mesh where its uv pass whole numbers and moves every triangle's uv into the one repeat [0, 1]², so that a texture may lie in an atlas.
+/// Cuts a mesh where its uv pass whole numbers and moves every triangle's uv into the one repeat [0, 1]², so that a texture may lie in an
+/// atlas.
 /// In:          uv per vertex, affine in the triangles. Meshes without uv come back as they are.
 /// Makes:       triangles that share an edge and its uv are cut at the same vertices; vertices on a cut are doubled, once for each repeat.
 /// Diagnostics: place.too-many-repeats when more than `max_triangles` would be needed.

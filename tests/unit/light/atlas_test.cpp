@@ -24,7 +24,8 @@ Texel texel(const mesh::Image& image, int x, int y) {
 }
 
 Texel nearest(const mesh::Image& image, double u, double v) {
-  return texel(image, std::clamp(static_cast<int>(std::floor(u * image.width)), 0, image.width - 1), std::clamp(static_cast<int>(std::floor(v * image.height)), 0, image.height - 1));
+  return texel(image, std::clamp(static_cast<int>(std::floor(u * image.width)), 0, image.width - 1),
+               std::clamp(static_cast<int>(std::floor(v * image.height)), 0, image.height - 1));
 }
 
 // The four texels that bilinear lookup blends, wrapped at the borders.
@@ -93,7 +94,8 @@ TEST_CASE("every triangle of a plain room reads its own colour, however a render
         REQUIRE(nearest(atlas.image, uv[0], uv[1]) == wanted);
         for (const Texel& one : blended(atlas.image, uv[0], uv[1])) REQUIRE(one == wanted);
         // Even half a texel off, as through mipmaps or half-float uv.
-        for (const Texel& one : blended(atlas.image, uv[0] + 1.0 / atlas.image.width, uv[1] - 1.0 / atlas.image.height)) REQUIRE(one == wanted);
+        for (const Texel& one : blended(atlas.image, uv[0] + 1.0 / atlas.image.width, uv[1] - 1.0 / atlas.image.height))
+          REQUIRE(one == wanted);
       }
     }
   }

@@ -33,7 +33,8 @@ TEST_CASE("a beam in the room is closed, at constant depth from its geodesic", "
     CHECK(open_edges({beam}).empty());
     CHECK(std::fabs(signed_floor_area(room, beam)) < 1e-5);
     const geometry::Line line = geometry::line_through(room.space, a.floor, b.floor);
-    for (std::size_t i = 0; i < beam.floor.size(); ++i) CHECK(std::fabs(geometry::signed_distance(room.space, line, beam.floor[i])) == Approx(0.02).epsilon(1e-9));
+    for (std::size_t i = 0; i < beam.floor.size(); ++i)
+      CHECK(std::fabs(geometry::signed_distance(room.space, line, beam.floor[i])) == Approx(0.02).epsilon(1e-9));
     // Its top faces up.
     double up = 0;
     for (const mesh::Triangle& t : beam.triangles) {
@@ -49,14 +50,16 @@ TEST_CASE("an upright beam is a square column", "[place]") {
   const Point p = geometry::point_from_log(room.space, {0.2, 0.1});
   const PlacedMesh column = make_beam(room, 1.0, {p, 0}, {p, 1}, 0.1).value();
   CHECK(open_edges({column}).empty());
-  for (std::size_t i = 0; i < column.floor.size(); ++i) CHECK(geometry::distance(room.space, p, column.floor[i]) == Approx(0.05 * std::sqrt(2)).epsilon(2e-3));
+  for (std::size_t i = 0; i < column.floor.size(); ++i)
+    CHECK(geometry::distance(room.space, p, column.floor[i]) == Approx(0.05 * std::sqrt(2)).epsilon(2e-3));
   CHECK(make_beam(room, 1.0, {p, 0.5}, {p, 0.5}, 0.1).error()[0].code == "place.no-beam");
 }
 
 TEST_CASE("a beam from wall to wall is cut off at the walls", "[place]") {
   for (const char* notation : {"*333", "*22222", "*222"}) {
     const room::Room room = make_room(notation);
-    const Position a{rounded_into(room, room::point_on_wall(room, 0, 0.3 * room.walls[0].length)), 0.5}, b{rounded_into(room, room::point_on_wall(room, 1, 0.6 * room.walls[1].length)), 0.01};
+    const Position a{rounded_into(room, room::point_on_wall(room, 0, 0.3 * room.walls[0].length)), 0.5},
+        b{rounded_into(room, room::point_on_wall(room, 1, 0.6 * room.walls[1].length)), 0.01};
     const PlacedMesh beam = make_beam(room, 1.0, a, b, 0.04).value();
     for (std::size_t i = 0; i < beam.floor.size(); ++i) {
       CHECK(overhang(room, beam.floor[i]).distance < 1e-12);
@@ -88,7 +91,8 @@ TEST_CASE("frames stay in the room and are open only where they meet their mirro
         for (std::size_t v = 0; v < frames[i].floor.size(); ++v) {
           CHECK(overhang(room, frames[i].floor[v]).distance < 1e-11);
           CHECK((frames[i].z[v] >= 0 && frames[i].z[v] <= 1));
-          CHECK(geometry::signed_distance(room.space, room.walls[i].line, frames[i].floor[v]) <= 0.02 + 4e-5);  // chords bulge by a thousandth of the width
+          CHECK(geometry::signed_distance(room.space, room.walls[i].line, frames[i].floor[v]) <=
+                0.02 + 4e-5);  // chords bulge by a thousandth of the width
         }
       }
       // Joined at the mitres, nothing is open but on walls, floor and ceiling. Mitred cuts are made twice, so they agree to rounding only.
@@ -96,7 +100,8 @@ TEST_CASE("frames stay in the room and are open only where they meet their mirro
         const Point x = geometry::midpoint(room.space, {p[0], p[1], p[2]}, {q[0], q[1], q[2]});
         const double z = 0.5 * (p[3] + q[3]);
         bool on_mitre = false;
-        for (std::size_t c = 0; c < room.corners.size(); ++c) on_mitre = on_mitre || std::fabs(geometry::value_at(bisector(room, static_cast<int>(c)), x)) < 1e-9;
+        for (std::size_t c = 0; c < room.corners.size(); ++c)
+          on_mitre = on_mitre || std::fabs(geometry::value_at(bisector(room, static_cast<int>(c)), x)) < 1e-9;
         CHECK((overhang(room, x).distance > -1e-9 || z < 1e-9 || z > 1 - 1e-9 || on_mitre));
       }
     }

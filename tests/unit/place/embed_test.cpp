@@ -67,7 +67,8 @@ TEST_CASE("a conformal mesh keeps angles everywhere and lengths on the axis", "[
     mesh::Mesh crosses;
     for (const double x : {-0.15, 0.0, 0.15}) {
       const auto first = static_cast<std::uint32_t>(crosses.positions.size());
-      for (const auto& d : {Vector3{0, 0, 0}, Vector3{h, 0, 0}, Vector3{0, h, 0}, Vector3{-h, 0, 0}, Vector3{0, -h, 0}}) crosses.positions.push_back(Vector3{x, 0, 0} + d);
+      for (const auto& d : {Vector3{0, 0, 0}, Vector3{h, 0, 0}, Vector3{0, h, 0}, Vector3{-h, 0, 0}, Vector3{0, -h, 0}})
+        crosses.positions.push_back(Vector3{x, 0, 0} + d);
       for (std::uint32_t i = 1; i <= 4; ++i) crosses.triangles.push_back({first, first + i, first + i % 4 + 1});
     }
     scene::Object object = object_at(roomy_place(room, random, 0.17), room.space, scene::Embedding::conformal);
@@ -166,7 +167,8 @@ TEST_CASE("coarse meshes are refined until geodesic triangles follow the embedde
         Vector3 flat;
         for (int k = 0; k < 3; ++k) x = x + b[k] * placed.floor[t[k]], flat = flat + b[k] * placed.pattern_position[t[k]];
         const std::complex<double> p(flat.x, flat.y);
-        const Point truth = embedding == scene::Embedding::conformal ? geometry::point_from_disk(room.space, p / 2.0) : geometry::point_from_log(room.space, p);
+        const Point truth = embedding == scene::Embedding::conformal ? geometry::point_from_disk(room.space, p / 2.0)
+                                                                     : geometry::point_from_log(room.space, p);
         worst = std::fmax(worst, geometry::distance(room.space, truth, geometry::normalised_point(room.space, x)));
       }
       CHECK(worst < 1.5e-4);
@@ -181,7 +183,8 @@ TEST_CASE("an object may touch walls, floor and ceiling, but not reach beyond", 
     const room::Room room = make_room(notation);
     // 0.1 away from the point of wall 1 that is nearest to the centre.
     const Point nearest = geometry::foot(room.space, room.walls[0].line, {});
-    const Point p = geometry::point_from_log(room.space, std::polar(geometry::distance(room.space, {}, nearest) - 0.1, std::atan2(nearest.y, nearest.x)));
+    const Point p = geometry::point_from_log(
+        room.space, std::polar(geometry::distance(room.space, {}, nearest) - 0.1, std::atan2(nearest.y, nearest.x)));
     mesh::Mesh cylinder = mesh::make_cylinder(0.1, 1.0, 256, 1, 1);
     scene::Object object = object_at(p, room.space, scene::Embedding::exponential);
     object.name = "column";
@@ -270,5 +273,6 @@ TEST_CASE("placing commutes with the room's symmetry", "[place]") {
   const PlacedMesh second = place_object(torus, object, room, 1.0).value();
   REQUIRE(first.floor.size() == second.floor.size());
   const geometry::Isometry turn = geometry::rotation(room.space, 2 * M_PI / 5);
-  for (std::size_t i = 0; i < first.floor.size(); ++i) CHECK(geometry::distance(room.space, turn * first.floor[i], second.floor[i]) < 1e-14);
+  for (std::size_t i = 0; i < first.floor.size(); ++i)
+    CHECK(geometry::distance(room.space, turn * first.floor[i], second.floor[i]) < 1e-14);
 }

@@ -23,7 +23,9 @@ scene::Scene bare_scene(const std::string& notation) {
   return scene;
 }
 
-PlacedRoom furnished(const scene::Scene& scene) { return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value()).value().room; }
+PlacedRoom furnished(const scene::Scene& scene) {
+  return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value()).value().room;
+}
 
 scene::Object sphere_at(double r, double degrees, double z, double radius) {
   scene::Object object;
@@ -52,7 +54,8 @@ TEST_CASE("a pixel's direction is seen in that pixel", "[place]") {
       scene.camera.projection = projection;
       scene.camera.fov = Angle::from_degrees(20 + 140 * unit(random));
       scene.camera.size = {640, 400};
-      scene.camera.look_at.value = scene::LookDirection{Angle::from_degrees(360 * unit(random)), Angle::from_degrees(180 * unit(random) - 90)};
+      scene.camera.look_at.value =
+          scene::LookDirection{Angle::from_degrees(360 * unit(random)), Angle::from_degrees(180 * unit(random) - 90)};
       PlacedRoom room;
       room.room = make_room("*22222");
       const Eye eye = make_eye(scene, room).value();

@@ -22,7 +22,9 @@ scene::Scene default_of(const std::string& notation) {
   return scene::default_scene(notation::parse(notation, any).value());
 }
 
-Result<Furnished> furnished(const scene::Scene& scene) { return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value()); }
+Result<Furnished> furnished(const scene::Scene& scene) {
+  return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value());
+}
 
 // A folder with a picture and a mesh in it.
 struct Folder {
@@ -154,9 +156,11 @@ TEST_CASE("textures are loaded once and their uv lie in one repeat", "[place]") 
     }
     // Doubling vertices opens no edge of the shell but those to the mirrors.
     for (const auto& [a, b] : open_edges(all.room.parts)) {
-      const geometry::Point middle = geometry::normalised_point(all.room.room.space, geometry::Point{a[0], a[1], a[2]} + geometry::Point{b[0], b[1], b[2]});
+      const geometry::Point middle =
+          geometry::normalised_point(all.room.room.space, geometry::Point{a[0], a[1], a[2]} + geometry::Point{b[0], b[1], b[2]});
       bool at_mirror = false;
-      for (std::size_t i = 1; i < all.room.room.walls.size(); ++i) at_mirror = at_mirror || std::fabs(geometry::value_at(all.room.room.walls[i].line, middle)) < 1e-12;
+      for (std::size_t i = 1; i < all.room.room.walls.size(); ++i)
+        at_mirror = at_mirror || std::fabs(geometry::value_at(all.room.room.walls[i].line, middle)) < 1e-12;
       CHECK(at_mirror);
     }
   }
@@ -177,7 +181,8 @@ TEST_CASE("wrapping keeps every point's texel", "[place]") {
   mesh.look = {0, 1};
   const PlacedMesh cut = wrapped(geometry::Space::euclidean, mesh).value();
   CHECK(open_edges({cut}).size() > 4);
-  for (const auto& [a, b] : open_edges({cut})) CHECK(((a[1] == b[1] && (a[1] == 0 || a[1] == 1)) || (a[2] == b[2] && (a[2] == 0 || a[2] == 1))));
+  for (const auto& [a, b] : open_edges({cut}))
+    CHECK(((a[1] == b[1] && (a[1] == 0 || a[1] == 1)) || (a[2] == b[2] && (a[2] == 0 || a[2] == 1))));
   double total = 0;
   for (std::size_t i = 0; i < cut.triangles.size(); ++i) {
     const mesh::Triangle& t = cut.triangles[i];
@@ -220,8 +225,8 @@ TEST_CASE("a checker on an object is cut along its cells and stays closed", "[pl
       if (std::floor(d.x / 0.07) + std::floor(d.y / 0.07) + std::floor(d.z / 0.07) != cells) CHECK(length(d - middle) < 1e-6);
     }
     const bool second = room.looks[mesh.look[i]].color.r == room.looks[mesh.look[i]].material.second.r;
-    if (std::fabs(middle.x / 0.07 - std::round(middle.x / 0.07)) > 1e-5 && std::fabs(middle.y / 0.07 - std::round(middle.y / 0.07)) > 1e-5 &&
-        std::fabs(middle.z / 0.07 - std::round(middle.z / 0.07)) > 1e-5)
+    if (std::fabs(middle.x / 0.07 - std::round(middle.x / 0.07)) > 1e-5 &&
+        std::fabs(middle.y / 0.07 - std::round(middle.y / 0.07)) > 1e-5 && std::fabs(middle.z / 0.07 - std::round(middle.z / 0.07)) > 1e-5)
       CHECK(second == (std::fmod(cells, 2) != 0));
   }
   scene.objects[0].material->cell = 1e-4;
@@ -246,7 +251,8 @@ TEST_CASE("rooms of the plane may have any scale", "[place]") {
     for (const PlacedMesh& part : room.parts)
       for (const mesh::Triangle& t : part.triangles) CHECK((t[0] != t[1] && t[1] != t[2] && t[2] != t[0]));
     double sum = 0;
-    for (const mesh::Triangle& t : room.parts[0].triangles) sum += area(room.room.space, room.parts[0].floor[t[0]], room.parts[0].floor[t[1]], room.parts[0].floor[t[2]]);
+    for (const mesh::Triangle& t : room.parts[0].triangles)
+      sum += area(room.room.space, room.parts[0].floor[t[0]], room.parts[0].floor[t[1]], room.parts[0].floor[t[2]]);
     CHECK(sum == Approx(room.room.area));
     CHECK(open_edges({room.parts[5]}).empty());
   }

@@ -33,7 +33,8 @@ TEST_CASE("each way to name a place gives the same point", "[place]") {
       const Point q = locate(at(scene::AtDisk{geometry::disk_from_point(room.space, p)}), room).value();
       CHECK(geometry::distance(room.space, p, q) < 1e-12);
       if (room.walls.size() < 2) continue;
-      const double a = geometry::signed_distance(room.space, room.walls[0].line, p), b = geometry::signed_distance(room.space, room.walls[1].line, p);
+      const double a = geometry::signed_distance(room.space, room.walls[0].line, p),
+                   b = geometry::signed_distance(room.space, room.walls[1].line, p);
       const Point s = locate(at(scene::AtWalls{{1, 2}, {a, b}}), room).value();
       // In a lune two points fit.
       if (room.walls.size() == 2 && s.x * p.x < 0) CHECK(geometry::signed_distance(room.space, room.walls[0].line, s) == Approx(a));
@@ -50,7 +51,8 @@ TEST_CASE("a point at given distances from two walls has these distances", "[pla
     for (int trial = 0; trial < 40 && n > 1; ++trial) {
       const Point p = random_point(room, random);
       const int i = trial % n, j = (i + 1 + trial / n % (n - 1)) % n;
-      const double a = geometry::signed_distance(room.space, room.walls[i].line, p), b = geometry::signed_distance(room.space, room.walls[j].line, p);
+      const double a = geometry::signed_distance(room.space, room.walls[i].line, p),
+                   b = geometry::signed_distance(room.space, room.walls[j].line, p);
       if (a < 1e-6 || b < 1e-6) continue;
       const auto found = locate(at(scene::AtWalls{{i + 1, j + 1}, {a, b}}), room);
       CAPTURE(notation, i, j, a, b);

@@ -26,7 +26,8 @@ Shell plain_shell(const room::Room& room, double floor_cell, double wall_cell) {
   Shell shell;
   shell.floor = floor_cell > 0 ? checker(floor_cell) : scene::Material{};
   shell.ceiling = scene::Material{};
-  for (std::size_t i = 0; i < room.walls.size(); ++i) shell.walls.push_back(wall_cell > 0 && i % 2 == 0 ? checker(wall_cell) : scene::Material{});
+  for (std::size_t i = 0; i < room.walls.size(); ++i)
+    shell.walls.push_back(wall_cell > 0 && i % 2 == 0 ? checker(wall_cell) : scene::Material{});
   return shell;
 }
 
@@ -84,7 +85,8 @@ TEST_CASE("the shell is closed: panels share every vertex of a common edge bit b
   for (const std::string& notation : notations()) {
     CAPTURE(notation);
     const room::Room room = make_room(notation);
-    for (const double cell : {0.0, 0.3, 0.11}) CHECK(open_edges(make_panels(room, 1.0, plain_shell(room, cell, 0.7 * cell), {}).value()).empty());
+    for (const double cell : {0.0, 0.3, 0.11})
+      CHECK(open_edges(make_panels(room, 1.0, plain_shell(room, cell, 0.7 * cell), {}).value()).empty());
   }
 }
 
@@ -94,16 +96,19 @@ TEST_CASE("a wall opens exactly where its mirrors are", "[place]") {
     const room::Room room = make_room(notation);
     const double l = room.walls[0].length;
     // Two that overlap, one to the wall's end, one that shares an edge with another.
-    const std::vector<PlacedMirror> mirrors = {mirror(0, 0.1 * l, 0.4 * l, 0.2, 0.7), mirror(0, 0.3 * l, 0.5 * l, 0.5, 0.9), mirror(0, 0.8 * l, l, 0, 0.6), mirror(0, 0.5 * l, 0.6 * l, 0.5, 0.9)};
+    const std::vector<PlacedMirror> mirrors = {mirror(0, 0.1 * l, 0.4 * l, 0.2, 0.7), mirror(0, 0.3 * l, 0.5 * l, 0.5, 0.9),
+                                               mirror(0, 0.8 * l, l, 0, 0.6), mirror(0, 0.5 * l, 0.6 * l, 0.5, 0.9)};
     const double open = (0.3 * 0.5 + 0.2 * 0.4 - 0.1 * 0.2 + 0.2 * 0.6 + 0.1 * 0.4) * l;
     const auto parts = make_panels(room, 1.0, plain_shell(room, 0.2, 0.13), mirrors).value();
     CHECK(wall_area(room, parts[2]) == Approx(l - open).epsilon(1e-9));
     for (const auto& [a, b] : open_edges(parts)) {
       // What is open lies on a border of a mirror.
-      const double s = arc_on_wall(room, 0, geometry::normalised_point(room.space, Point{a[0], a[1], a[2]} + Point{b[0], b[1], b[2]})), z = 0.5 * (a[3] + b[3]);
+      const double s = arc_on_wall(room, 0, geometry::normalised_point(room.space, Point{a[0], a[1], a[2]} + Point{b[0], b[1], b[2]})),
+                   z = 0.5 * (a[3] + b[3]);
       bool on_border = false;
       for (const PlacedMirror& m : mirrors) {
-        const bool upright = std::fabs(s - m.span[0]) < 1e-9 || std::fabs(s - m.span[1]) < 1e-9 || (room.corners.empty() && m.span[1] == l && s < 1e-9);
+        const bool upright =
+            std::fabs(s - m.span[0]) < 1e-9 || std::fabs(s - m.span[1]) < 1e-9 || (room.corners.empty() && m.span[1] == l && s < 1e-9);
         const bool level = std::fabs(z - m.height[0]) < 1e-9 || std::fabs(z - m.height[1]) < 1e-9;
         on_border = on_border || (upright && m.height[0] < z && z < m.height[1]) || (level && m.span[0] < s && s < m.span[1]);
       }
@@ -189,7 +194,8 @@ TEST_CASE("a texture lies on the floor by the disk chart to a quarter texel", "[
         const double a = unit(random), c = unit(random) * (1 - a), b[3] = {a, c, 1 - a - c};
         geometry::Ambient x{0, 0, 0};
         double u = 0, v = 0, z = 0;
-        for (int k = 0; k < 3; ++k) x = x + b[k] * part.floor[t[k]], u += b[k] * part.uv[t[k]][0], v += b[k] * part.uv[t[k]][1], z += b[k] * part.z[t[k]];
+        for (int k = 0; k < 3; ++k)
+          x = x + b[k] * part.floor[t[k]], u += b[k] * part.uv[t[k]][0], v += b[k] * part.uv[t[k]][1], z += b[k] * part.z[t[k]];
         const Point p = geometry::normalised_point(room.space, x);
         std::complex<double> place = (room.space == Space::euclidean ? 2.0 : 4.0) * geometry::disk_from_point(room.space, p);
         if (part.kind == PartKind::wall) place = {arc_on_wall(room, 0, p) / 0.5, z / 0.5};

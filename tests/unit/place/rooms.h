@@ -38,7 +38,9 @@ inline double area(geometry::Space space, const geometry::Point& p, const geomet
 }
 
 using Key = std::array<double, 4>;
-inline Key key(const PlacedMesh& mesh, std::uint32_t v) { return {mesh.floor[v].w + 0.0, mesh.floor[v].x + 0.0, mesh.floor[v].y + 0.0, mesh.z[v] + 0.0}; }
+inline Key key(const PlacedMesh& mesh, std::uint32_t v) {
+  return {mesh.floor[v].w + 0.0, mesh.floor[v].x + 0.0, mesh.floor[v].y + 0.0, mesh.z[v] + 0.0};
+}
 
 /// Directed edges that have no partner running the other way, by bitwise positions, over all the meshes together.
 inline std::vector<std::pair<Key, Key>> open_edges(const std::vector<PlacedMesh>& meshes) {
@@ -63,7 +65,8 @@ inline geometry::Point random_point(const room::Room& room, std::mt19937& random
   std::uniform_real_distribution<double> unit(0, 1);
   const std::size_t n = room.outline.size(), i = std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
   const double a = std::sqrt(unit(random)), b = unit(random);
-  return geometry::normalised_point(room.space, (1 - a) * geometry::Point{} + a * ((1 - b) * room.outline[i] + b * room.outline[(i + 1) % n]));
+  return geometry::normalised_point(room.space,
+                                    (1 - a) * geometry::Point{} + a * ((1 - b) * room.outline[i] + b * room.outline[(i + 1) % n]));
 }
 
 }  // namespace orbc::place::test
