@@ -111,7 +111,7 @@ std::vector<mesh::Triangle> triangulate(geometry::Space space, Net& net, const N
   std::map<int, int> edges_of_side;
   for (const Net::Edge& edge : loop) ++edges_of_side[edge.side];
   // A triangle of the fan is flat when its edge lies on a side that the hub lies on too: the hub's sides may hold no other edges than its
-  //                                                                                      own two.
+  // own two.
   for (std::size_t i = 0; i < n; ++i) {
     const int before = loop[(i + n - 1) % n].side, after = loop[i].side;
     const int own = before == after ? 2 : 1;
