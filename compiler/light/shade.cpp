@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "compiler/light/falloff.h"
 #include "compiler/light/frame.h"
+#include "compiler/trace/analytic.h"
 
 namespace orbc::light {
 namespace {
@@ -20,8 +21,8 @@ using geometry::Space;
 using scene::Color;
 using trace::Direction;
 
-constexpr double kStep = 0.008;       // of white: what one sample of a lamp may add
-constexpr int kProbes = 6;            // samples that decide whether there is a penumbra at all
+constexpr double kStep = 0.012;       // of white: what one sample of a lamp may add
+constexpr int kProbes = 4;            // samples that decide whether there is a penumbra at all
 constexpr double kArrival = 1e-5;     // how near to the lamp's sample a shadow ray must end; its own error is below 1e-12 in rooms
 
 double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
@@ -54,27 +55,66 @@ Way way_to(Space space, const Position& from, const Position& to, int sheet) {
   return way;
 }
 
+const trace::MirrorArea* mirror_at(const trace::TraceScene& scene, const trace::Ray& ray, const trace::Exit& exit) {
+  if (exit.surface == trace::kFloor) return scene.floor_mirror ? &*scene.floor_mirror : nullptr;
+  if (exit.surface == trace::kCeiling) return scene.ceiling_mirror ? &*scene.ceiling_mirror : nullptr;
+  const auto& areas = scene.mirrors[static_cast<std::size_t>(exit.surface)];
+  if (areas.empty()) return nullptr;
+  const Position at = trace::position_at(scene.prism.space, ray, exit.t);
+  const double s = trace::arc_on_wall(scene.prism.space, scene.prism.walls[static_cast<std::size_t>(exit.surface)], at.floor);
+  for (const trace::MirrorArea& area : areas)
+    if (s >= area.span[0] && s <= area.span[1] && at.z >= area.height[0] && at.z <= area.height[1]) return &area;
+  return nullptr;
+}
+
+/// A shadow ray's way through the room: its pieces between mirrors, as long as they meet no plain wall.
+struct ShadowPath {
+  static constexpr int kMost = 32;
+  std::array<trace::Ray, kMost> rays;
+  std::array<double, kMost> lengths{};
+  std::array<std::int16_t, kMost> walls{};
+  int pieces = 0, crossed = 0;
+  Color weight{1, 1, 1};
+  bool complete = false;
+};
+
+// The same steps as trace::follow, without triangles: most paths that fail, fail here.
+ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double length, int bounces) {
+  ShadowPath path;
+  for (;;) {
+    const trace::Exit exit = trace::exit_of(scene.prism, ray);
+    path.rays[static_cast<std::size_t>(path.pieces)] = ray;
+    path.lengths[static_cast<std::size_t>(path.pieces++)] = std::min(exit.t, length);
+    if (exit.t >= length) {
+      path.complete = true;
+      return path;
+    }
+    const trace::MirrorArea* mirror = mirror_at(scene, ray, exit);
+    if (!mirror || path.pieces > bounces || path.pieces == ShadowPath::kMost) return path;
+    path.weight = path.weight * mirror->weight;
+    if (exit.surface >= 0) path.walls[static_cast<std::size_t>(path.crossed++)] = static_cast<std::int16_t>(exit.surface);
+    length -= exit.t;
+    ray = exit.surface >= 0 ? trace::reflected_in_wall(scene.prism, ray, exit.t, exit.surface) : trace::reflected_in_plane(scene.prism, ray, exit.t, exit.surface);
+  }
+}
+
 /// What a path brings along: nothing, or the weight of its mirrors.
 Color arriving(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point, const Way& way) {
   const Space space = field.scene.prism.space;
   trace::Ray ray = trace::ray_from(space, point.origin, way.start);
   ray.leaves_wall = point.wall;
   ray.t_min = point.on_triangle ? trace::kLeave : 0;
-  trace::FollowOptions follow;
-  follow.max_bounces = field.options.bounces;
-  follow.max_length = way.length * (1 - 1e-9);
-  follow.record_word = image.exact;
-  const trace::Path path = trace::follow(field.scene, ray, follow);
-  if (path.cut_off || path.hit.target != trace::Target::nothing) return {};
-  const Position end = trace::position_at(space, path.last, path.hit.t);
+  const ShadowPath path = reflected_path(field.scene, ray, way.length * (1 - 1e-9), field.options.bounces);
+  if (!path.complete) return {};
+  const auto last = static_cast<std::size_t>(path.pieces - 1);
+  const Position end = trace::position_at(space, path.rays[last], path.lengths[last]);
   const Position& there = lamp.samples[sample];
   const geometry::Ambient off = end.floor - there.floor;
-  if (std::fabs(off.x) + std::fabs(off.y) + std::fabs(off.w) + std::fabs(end.z - there.z) > kArrival * (1 + std::fabs(there.floor.w)) + 1e-7 * way.length) return {};
-  if (image.exact) {
-    std::vector<std::int16_t> walls = path.word;
-    walls.erase(std::remove_if(walls.begin(), walls.end(), [](std::int16_t w) { return w < 0; }), walls.end());
-    if (walls != image.walls) return {};
-  }
+  const double apart = std::fabs(off.x) + std::fabs(off.y) + std::fabs(off.w) + std::fabs(end.z - there.z);
+  if (apart > kArrival * (1 + std::fabs(there.floor.w)) + 1e-7 * way.length) return {};
+  if (image.exact && !std::equal(path.walls.begin(), path.walls.begin() + path.crossed, image.walls.begin(), image.walls.end())) return {};
+  for (std::size_t i = 0; i <= last; ++i)
+    if (trace::occluded(field.scene, path.rays[i], path.lengths[i])) return {};
   return path.weight;
 }
 
@@ -88,13 +128,20 @@ double unhindered(const LightField& field, const LampImage& image, const HungLam
 }
 
 /// Adds up f(way, light) over the samples of an image, light = unhindered × weight; f(way) = 0 costs no ray.
-Color gather(const LightField& field, const LampImage& image, const LightPoint& point, const std::function<double(const Way&)>& f) {
+template <class F>
+Color gather(const LightField& field, const LampImage& image, const LightPoint& point, bool by_cosine, const F& f) {
   const Space space = field.scene.prism.space;
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way middle = way_to(space, point.origin, image.samples[0], image.sheet);
   const double power = largest(lamp.power) / std::numbers::pi * field.exposure;
-  const double most = power * image.weight * lamp.gain * falloff(lamp.falloff, space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
+  double most = power * image.weight * lamp.gain * falloff(lamp.falloff, space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
   if (most < field.options.cut) return {};
+  if (by_cosine && middle.exists) {  // the lamp's own extent turns the direction to its samples by little
+    const double cosine = trace::inner(space, middle.start, point.normal) + 2 * lamp.extent / middle.length;
+    if (cosine <= 0 && middle.length > 2 * lamp.extent) return {};
+    if (cosine < 1 && image.sheet == 0) most *= std::max(cosine, 0.0);
+    if (most < field.options.cut) return {};
+  }
   const int all = static_cast<int>(image.samples.size()) - 1;
   const int count = all > 0 ? std::clamp(static_cast<int>(std::ceil(most / kStep)), 1, all) : 1;
   const auto sample = [&](int i) { return static_cast<std::size_t>(count == 1 ? 0 : i + 1); };
@@ -159,7 +206,7 @@ Color irradiance(const LightField& field, const LightPoint& point) {
   Color sum;
   const Space space = field.scene.prism.space;
   const auto cosine = [&](const Way& way) { return trace::inner(space, way.start, point.normal); };
-  for (const LampImage& image : field.images) sum = sum + gather(field, image, point, cosine);
+  for (const LampImage& image : field.images) sum = sum + gather(field, image, point, true, cosine);
   return sum;
 }
 
@@ -198,7 +245,7 @@ Color highlight(const LightField& field, const LightPoint& point, const Directio
     return fresnel * d * smith(nl) * smith(nv) / (4 * nv);
   };
   Color sum;
-  for (const LampImage& image : field.images) sum = sum + gather(field, image, point, shine);
+  for (const LampImage& image : field.images) sum = sum + gather(field, image, point, false, shine);
   return metal ? albedo * sum : sum;
 }
 
