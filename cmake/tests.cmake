@@ -36,6 +36,10 @@ endforeach()
 foreach(exporter ${ORBC_EXPORTERS})
   orbc_tests(test_${exporter} tests/unit/${exporter} USES ${exporter})
 endforeach()
+# GCC 12 sees an impossible size in the comparison of two byte vectors (false positive at -O3).
+if(TARGET test_cover)
+  target_compile_options(test_cover PRIVATE -Wno-error=stringop-overread)
+endif()
 if(TARGET test_scene)  # the JSON Schema and the reader give the same verdicts
   add_test(NAME scene_schema COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/scripts/check_schema.py --reader $<TARGET_FILE:test_scene>)
   set_tests_properties(scene_schema PROPERTIES LABELS fast TIMEOUT 300)

@@ -50,7 +50,7 @@ int write_tiling(const driver::Opened& opened, const CompileArguments& a, const 
   return kDone;
 }
 
-std::vector<driver::File> exported(const driver::Product& product, const std::string& format, const std::string& output) {
+std::vector<driver::File> exported(const driver::Product& product, const std::string& format, const std::string& output, bool nodes_per_copy) {
   if (format == "pov") {
     pov::PovOptions options;
     options.name = stem_of(output);
@@ -60,6 +60,7 @@ std::vector<driver::File> exported(const driver::Product& product, const std::st
   gltf::GltfOptions options;
   options.name = stem_of(output);
   options.binary = format == "glb";
+  options.nodes_per_copy = nodes_per_copy;
   return gltf::write_gltf(product, options);
 }
 
@@ -96,7 +97,7 @@ int compile(const CompileArguments& a, const Common& common) {
   const auto compiled = driver::compile(*opened, options, executor, bar.progress());
   if (!compiled) return bar.clear(), print(compiled.error(), common), kSceneWrong;
   report(bar.progress(), "writing", 0, 0);
-  write_files(exported(compiled->product, format, a.output), a.output);
+  write_files(exported(compiled->product, format, a.output, a.nodes_per_copy), a.output);
   if (!a.report.empty()) write_output(a.report, driver::report_json(*compiled));
   if (common.json) write_output("-", driver::report_json(*compiled));
   bar.clear();

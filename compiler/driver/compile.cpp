@@ -68,7 +68,6 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   product.uv = std::move(bent->uv);
   product.indices = std::move(bent->indices);
   product.flat_view = options.bend.view == bend::View::disk;
-  if (product.flat_view) product.eye.room_from_eye = geometry::identity(opened.eye.room_from_eye.space);
 
   Report& r = compiled.report;
   r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
