@@ -43,6 +43,7 @@ Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
   append(opened.notes, located(furnished->warnings, opened.scene.span));
   const auto lamps = light::hang_lamps(opened.scene, *room);
   if (!lamps) return located(lamps.error(), opened.scene.span);
+  append(opened.notes, lamps.value().warnings);
   light::add_fixtures(opened.scene, *lamps, furnished->room);
   opened.room = std::make_unique<place::PlacedRoom>(std::move(furnished->room));
   const auto eye = place::make_eye(opened.scene, *opened.room);
