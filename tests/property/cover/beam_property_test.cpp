@@ -1,0 +1,174 @@
+// Laws of beams over random rooms and eyes: they find the group's copies; unequal weights cut a copy into wedges that fill what the copy fills; every
+// bearing leads to one copy after each number of bounces; following one ray by hand meets the mirrors of the wedge that holds it.
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "compiler/cover/beam.h"
+#include "compiler/cover/unfold.h"
+#include "compiler/notation/parse.h"
+#include "compiler/room/realise.h"
+
+using namespace orbc;
+using geometry::Space;
+
+namespace {
+
+place::PlacedRoom mirror_room(const std::string& text) {
+  const auto orbifold = notation::parse(text, {{}, true});
+  REQUIRE(orbifold);
+  auto room = room::realise(*orbifold, {}, true);
+  if (!room) FAIL(text + ": " + to_text(room.error()));
+  place::PlacedRoom placed;
+  placed.room = std::move(room).value();
+  for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
+    if (placed.room.walls[i].reflects) placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, 0.9, {1, 1, 1}});
+  }
+  return placed;
+}
+
+/// A random orbifold of any space, small corners and large ones.
+std::string random_orbifold(std::mt19937& random) {
+  static const char* const rest[] = {"*", "*22", "*33", "*77", "*222", "*225", "*229", "*233", "*234", "*235", "*333", "*244", "*236", "*2222"};
+  if (random() % 2) return rest[random() % std::size(rest)];
+  for (;;) {
+    std::string text = "*";
+    const int corners = 3 + static_cast<int>(random() % 4);
+    double sum = 0;
+    for (int i = 0; i < corners; ++i) {
+      const int k = 2 + static_cast<int>(random() % 8);
+      text += std::to_string(k);
+      sum += 0.5 / k;
+    }
+    if (sum - corners / 2.0 + 1 < -1e-9) return text;
+  }
+}
+
+/// An eye anywhere in the room: a mixture of its corners and its centre.
+place::Eye random_eye(const place::PlacedRoom& room, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.01, 1);
+  geometry::Ambient at{unit(random), 0, 0};
+  for (const auto& p : room.room.outline) at = at + (unit(random) * unit(random)) * p;
+  place::Eye eye;
+  const auto point = geometry::normalised_point(room.room.space, (room.room.space == Space::euclidean ? 1 / at.w : 1.0) * at);
+  eye.room_from_eye = geometry::translation_to(room.room.space, point) * geometry::rotation(room.room.space, 6.28 * unit(random));
+  eye.z = 0.5;
+  return eye;
+}
+
+std::vector<cover::Copy> beams_of(const place::PlacedRoom& room, const place::Eye& eye, int bounces) {
+  const auto copies = cover::unfold_by_beams(room, eye, {bounces, 0, 0, {}});
+  if (!copies) FAIL(to_text(copies.error()));
+  return *copies;
+}
+
+int bounces_for(const place::PlacedRoom& room) { return room.room.space == Space::hyperbolic ? (room.room.walls.size() > 3 ? 5 : 9) : 12; }
+
+bool holds(const cover::Wedge& w, double angle) {
+  const cover::Bearing b{std::cos(angle), std::sin(angle)};
+  return cover::turn(w.from, b) > 1e-9 && cover::turn(b, w.to) > 1e-9;
+}
+
+}  // namespace
+
+TEST_CASE("beams of uniform rooms are the group's copies, whole, from any eye", "[cover][property]") {
+  std::mt19937 random(4711);
+  for (int trial = 0; trial < 150; ++trial) {
+    const std::string text = random_orbifold(random);
+    const auto room = mirror_room(text);
+    const auto eye = random_eye(room, random);
+    INFO(text << " trial " << trial);
+    const int bounces = bounces_for(room);
+    const auto a = beams_of(room, eye, bounces);
+    const auto b = cover::unfold(room, eye, {bounces, 0, 0, {}});
+    REQUIRE(b);
+    REQUIRE(a.size() == b->size());
+    bool alike = true;
+    double worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const auto &x = a[i], &y = (*b)[i];
+      alike = alike && x.word == y.word && x.sheet == y.sheet && x.bounces == y.bounces && x.nearer_walls == y.nearer_walls && !x.wedge;
+      worst = std::max(worst, geometry::difference(x.cover_from_room, y.cover_from_room));
+    }
+    CHECK(alike);
+    CHECK(worst <= 1e-12);
+  }
+}
+
+TEST_CASE("copies cut by weight have the paths' own weights, and fit together", "[cover][property]") {
+  std::mt19937 random(4712);
+  for (int trial = 0; trial < 60; ++trial) {
+    const std::string text = random_orbifold(random);
+    auto room = mirror_room(text);
+    for (auto& mirror : room.mirrors) mirror.reflectance = 0.5 + 0.4 * static_cast<double>(random() % 1000) / 1000;
+    const auto eye = random_eye(room, random);
+    INFO(text << " trial " << trial);
+    const auto copies = beams_of(room, eye, bounces_for(room));
+    std::map<std::string, std::vector<const cover::Copy*>> of_element;
+    for (const auto& copy : copies) of_element[std::to_string(copy.sheet) + ":" + cover::to_string(copy.word)].push_back(&copy);
+    for (const auto& [name, pieces] : of_element) {
+      if (pieces.size() == 1) continue;
+      int loose = 0;
+      for (const auto* piece : pieces) {
+        REQUIRE(piece->wedge);
+        CHECK(geometry::difference(piece->cover_from_room, pieces.front()->cover_from_room) == 0);
+        loose += std::none_of(pieces.begin(), pieces.end(), [&](const auto* other) { return cover::same(other->wedge->from, piece->wedge->to); });
+      }
+      // A whole room has two ends; one around the eye's antipode has none.
+      CHECK(loose <= 1);
+    }
+    // The number of elements is the group's, whatever the weights.
+    for (auto& mirror : room.mirrors) mirror.reflectance = 0.9;
+    CHECK(of_element.size() == cover::unfold(room, eye, {bounces_for(room), 0, 0, {}})->size());
+  }
+}
+
+TEST_CASE("in rooms that are no orbifolds every bearing meets the walls of its wedge's word", "[cover][property]") {
+  std::mt19937 random(4713);
+  for (const char* text : {"*(3/2)(12)(12)", "*(2.5)(2.5)(2.5)(2.5)", "*(2.5)44", "*(2.5)(2.5)(2.5)", "*(7/3)23", "*(3.5)(4.5)(3.5)"}) {
+    const auto room = mirror_room(text);
+    const auto eye = random_eye(room, random);
+    INFO(text);
+    const auto copies = beams_of(room, eye, 7);
+    std::uniform_real_distribution<double> angles(-M_PI, M_PI);
+    for (int ray = 0; ray < 200; ++ray) {
+      const double angle = angles(random);
+      // Follows the ray in the room itself: the wall met first, then its mirror image.
+      const Space space = room.room.space;
+      geometry::Point at = eye.room_from_eye * geometry::Point();
+      geometry::Tangent along = eye.room_from_eye * geometry::Tangent(0, std::cos(angle), std::sin(angle));
+      cover::Word word;
+      for (int bounce = 0; bounce < 7; ++bounce) {
+        double best = 1e9;
+        int wall = -1;
+        for (int i = 0; i < static_cast<int>(room.room.walls.size()); ++i) {
+          if (!word.empty() && word.back() == i) continue;
+          // Zero of l_P·cosκ s + l_V·sinκ s.
+          const auto& line = room.room.walls[static_cast<std::size_t>(i)].line;
+          const double p = value_at(line, at), v = value_at(line, along);
+          double s = 1e9;
+          if (space == Space::spherical) s = std::atan2(p, -v);
+          else if (v < 0 && (space == Space::euclidean || -v > p)) s = geometry::atan_k(space, -p / v);
+          if (s > 0 && s < best) best = s, wall = i;
+        }
+        const auto next = geometry::point_along(space, at, along, best);
+        const auto direction = geometry::direction_along(space, at, along, best);
+        const auto mirror = room::reflection_in_wall(room.room, wall);
+        at = mirror * next;
+        along = geometry::normalised_tangent(space, at, mirror * direction);
+        word.push_back(static_cast<std::uint8_t>(wall));
+      }
+      int found = 0;
+      for (const auto& copy : copies) {
+        if (copy.bounces != 7 || !copy.wedge || !holds(*copy.wedge, angle)) continue;
+        CHECK(cover::to_string(copy.word) == cover::to_string(word));
+        ++found;
+      }
+      // On S² the copy where rays meet again is seen on two sheets.
+      CHECK(found >= 1);
+      CHECK(found <= (space == Space::spherical ? 2 : 1));
+    }
+  }
+}
