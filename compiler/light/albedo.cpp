@@ -13,7 +13,8 @@ using scene::Pattern;
 
 // A well mixed 32-bit number of a lattice point (the finaliser of MurmurHash3; Appleby, public domain).
 double lattice(std::int64_t x, std::int64_t y, std::int64_t z) {
-  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^ static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
+  std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
+                    static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
   h ^= h >> 16, h *= 0x85ebca6bu, h ^= h >> 13, h *= 0xc2b2ae35u, h ^= h >> 16;
   return h * (1.0 / 4294967296.0);
 }
@@ -46,7 +47,9 @@ double step(double from, double to, double t) {
 
 Color texel(const mesh::Image& image, double u, double v) {
   const auto index = [](double t, int n) { return std::clamp(static_cast<int>(std::floor((t - std::floor(t)) * n)), 0, n - 1); };
-  const std::uint8_t* p = image.rgba.data() + 4 * (static_cast<std::size_t>(index(v, image.height)) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(index(u, image.width)));
+  const std::uint8_t* p =
+      image.rgba.data() + 4 * (static_cast<std::size_t>(index(v, image.height)) * static_cast<std::size_t>(image.width) +
+                               static_cast<std::size_t>(index(u, image.width)));
   return {scene::decode_srgb(p[0] / 255.0), scene::decode_srgb(p[1] / 255.0), scene::decode_srgb(p[2] / 255.0)};
 }
 

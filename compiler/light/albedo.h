@@ -19,8 +19,10 @@ struct SurfaceKey {
 [[nodiscard]] bool varies(const place::PlacedRoom& room, int look, bool solid);
 
 /// The solid patterns by themselves: how much of the second colour stands at a point, 0…1; `cell` is their size.
-/// marble: veins where a sine over sheets, bent by turbulence, comes near its turns; wood: rings around a trunk's axis; granite: grains of several octaves.
-/// Source: Perlin, An image synthesizer (1985); value noise on an integer lattice hashed without tables, so that every machine sees the same stone.
+/// marble: veins where a sine over sheets, bent by turbulence, comes near its turns; wood: rings around a trunk's axis; granite: grains of
+/// several octaves.
+/// Source: Perlin, An image synthesizer (1985); value noise on an integer lattice hashed without tables, so that every machine sees the
+///         same stone.
 [[nodiscard]] double solid_pattern(scene::Pattern pattern, const geometry::Vector3& at, double cell);
 
 }  // namespace orbc::light

@@ -1,5 +1,7 @@
-// Light changes slowly except at shadow borders, so it is asked where it changes: adaptive sampling of each block (Whitted, An improved illumination model for
-// shaded display, 1980, §4, on grids instead of pixels). Vertices are lit once and shared by all blocks that meet there. What is interpolated is irradiance, in
+// Light changes slowly except at shadow borders, so it is asked where it changes: adaptive sampling of each block (Whitted, An improved
+// illumination model for
+// shaded display, 1980, §4, on grids instead of pixels). Vertices are lit once and shared by all blocks that meet there. What is
+// interpolated is irradiance, in
 // linear light; what is compared is the encoded picture. Textures and solid patterns are then looked up texel by texel.
 #include "compiler/light/bake.h"
 
@@ -79,9 +81,12 @@ class BlockBaker {
  private:
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * grid_.w + i; }
   bool valid(int i, int j) const {
-    return block_.second >= 0 || static_cast<std::int64_t>(i) * (grid_.h - 1) + static_cast<std::int64_t>(j) * (grid_.w - 1) <= static_cast<std::int64_t>(grid_.w - 1) * (grid_.h - 1);
+    return block_.second >= 0 || static_cast<std::int64_t>(i) * (grid_.h - 1) + static_cast<std::int64_t>(j) * (grid_.w - 1) <=
+                                     static_cast<std::int64_t>(grid_.w - 1) * (grid_.h - 1);
   }
-  InTriangle place(int i, int j) const { return in_triangle(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1)); }
+  InTriangle place(int i, int j) const {
+    return in_triangle(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1));
+  }
 
   double pattern_density() const {
     const place::Look& look = part_.room.looks[part_.mesh.look[block_.first]];
@@ -140,7 +145,8 @@ class BlockBaker {
       mean = mean + (1.0 / count) * grid_.light[parents[k]];
       needed = needed || grid_.rough[parents[k]];
     }
-    for (int k = 0; k + 1 < count + (count & 1) && !needed; k += 2) needed = difference(grid_.light[parents[k]], grid_.light[parents[k + 1]]) > kContrast;
+    for (int k = 0; k + 1 < count + (count & 1) && !needed; k += 2)
+      needed = difference(grid_.light[parents[k]], grid_.light[parents[k + 1]]) > kContrast;
     Color& light = grid_.light[index(i, j)];
     light = mean;
     if (!needed) return false;
@@ -178,7 +184,8 @@ class BlockBaker {
       for (int i = 0; i < w; ++i) {
         Color& c = shown_at[static_cast<std::size_t>(j) * w + i];
         if (valid(i * step_u, j * step_v)) {
-          c = part_.field.exposure * radiance_out(part_.field, *material_, varies_ ? albedo(i * step_u, j * step_v) : plain_, grid_.light[index(i * step_u, j * step_v)]);
+          c = part_.field.exposure * radiance_out(part_.field, *material_, varies_ ? albedo(i * step_u, j * step_v) : plain_,
+                                                  grid_.light[index(i * step_u, j * step_v)]);
         } else {  // a single triangle beyond its long side, which the lookup only touches one texel deep
           const auto at = [&](int x, int y) { return shown_at[static_cast<std::size_t>(y) * w + x]; };
           c = at(i - 1, j) + at(i, j - 1) + -1.0 * at(i - 1, j - 1);
@@ -207,13 +214,15 @@ void light_vertices(Part& part, const Executor& executor, const Progress& progre
   std::atomic<std::uint64_t> done{0};
   executor((part.at_vertex.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t end = std::min((chunk + 1) * kChunk, part.at_vertex.size());
-    for (std::size_t i = chunk * kChunk; i < end; ++i) part.at_vertex[i] = irradiance(part.field, light_point(part.room, part.mesh, part.normals.vertices[i]));
+    for (std::size_t i = chunk * kChunk; i < end; ++i)
+      part.at_vertex[i] = irradiance(part.field, light_point(part.room, part.mesh, part.normals.vertices[i]));
     if (chunk % 16 == 0) report(progress, "baking", done.fetch_add(16 * kChunk), part.at_vertex.size(), "points");
   });
 }
 
 // The part with vertices of its own for every block, and where they lie in the atlas.
-void rebuild(const std::vector<Block>& blocks, const Finished* finished, int width, int height, PlacedMesh& part, std::vector<std::array<float, 2>>& uv) {
+void rebuild(const std::vector<Block>& blocks, const Finished* finished, int width, int height, PlacedMesh& part,
+             std::vector<std::array<float, 2>>& uv) {
   const PlacedMesh own = part;
   part.floor.clear(), part.z.clear(), part.uv.clear(), part.pattern_position.clear();
   const auto add = [&](std::uint32_t v, double x, double y) {
@@ -227,7 +236,8 @@ void rebuild(const std::vector<Block>& blocks, const Finished* finished, int wid
     const Box& box = finished[i].box;
     const double x0 = box.x + 0.5, y0 = box.y + 0.5, x1 = box.x + box.width - 0.5, y1 = box.y + box.height - 0.5;
     const mesh::Triangle& first = own.triangles[block.first];
-    const std::uint32_t v00 = add(first[block.turn[0]], x0, y0), v10 = add(first[block.turn[1]], x1, y0), v01 = add(first[block.turn[2]], x0, y1);
+    const std::uint32_t v00 = add(first[block.turn[0]], x0, y0), v10 = add(first[block.turn[1]], x1, y0),
+                        v01 = add(first[block.turn[2]], x0, y1);
     mesh::Triangle& t = part.triangles[block.first];
     t[block.turn[0]] = v00, t[block.turn[1]] = v10, t[block.turn[2]] = v01;
     if (block.second < 0) continue;
@@ -237,7 +247,8 @@ void rebuild(const std::vector<Block>& blocks, const Finished* finished, int wid
   }
 }
 
-Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks, const std::vector<Finished>& finished, int max_side) {
+Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks, const std::vector<Finished>& finished,
+                     int max_side) {
   std::size_t at = 0, worst = 0;
   std::uint64_t most = 0;
   for (std::size_t p = 0; p < blocks.size(); ++p) {
@@ -245,8 +256,10 @@ Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vecto
     for (std::size_t i = 0; i < blocks[p].size(); ++i, ++at) texels += finished[at].texels.size();
     if (texels > most) most = texels, worst = p;
   }
-  return make_error("light.atlas-too-large", fmt::format("the baked light of this scene does not fit into a picture of {0}×{0} pixels", max_side),
-                    fmt::format("most of it, {} texels, is on \"{}\"; set `bake: {{texel: …}}` to a coarser size, or `bake: {{quality: draft}}`", most, room.parts[worst].name));
+  return make_error("light.atlas-too-large",
+                    fmt::format("the baked light of this scene does not fit into a picture of {0}×{0} pixels", max_side),
+                    fmt::format("most of it, {} texels, is on \"{}\": a simpler mesh there, or larger lamps with softer shadows, need less",
+                                most, room.parts[worst].name));
 }
 
 }  // namespace
@@ -254,11 +267,14 @@ Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vecto
 bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
   if (!scene.lamps.empty()) return true;
   return std::any_of(room.parts.begin(), room.parts.end(), [&](const PlacedMesh& part) {
-    return std::any_of(part.look.begin(), part.look.end(), [&](std::uint16_t look) { return room.looks[look].texture < 0 && varies(room, look, !part.pattern_position.empty()); });
+    return std::any_of(part.look.begin(), part.look.end(), [&](std::uint16_t look) {
+      return room.looks[look].texture < 0 && varies(room, look, !part.pattern_position.empty());
+    });
   });
 }
 
-Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const BakeOptions& options, const Executor& executor, const Progress& progress) {
+Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const BakeOptions& options, const Executor& executor,
+                   const Progress& progress) {
   std::vector<std::vector<Block>> blocks;
   std::vector<Finished> finished;
   std::vector<std::size_t> first;
@@ -295,7 +311,8 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
         const Texel& texel = finished[f].texels[static_cast<std::size_t>(y) * box.width + x];
-        std::copy(texel.begin(), texel.end(), atlas.image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
+        std::copy(texel.begin(), texel.end(),
+                  atlas.image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
       }
   }
   atlas.room = room;

@@ -63,7 +63,8 @@ std::vector<Block> blocks_of(const place::PlacedRoom& room, std::uint32_t part, 
     const auto [s, m] = other[t][k];
     const auto& corners = normals.corners;
     // The neighbour runs along the common edge the other way round.
-    const bool smooth = s >= 0 && !taken[s] && mesh.look[s] == mesh.look[t] && corners[s][m] == corners[t][(k + 1) % 3] && corners[s][(m + 1) % 3] == corners[t][k];
+    const bool smooth = s >= 0 && !taken[s] && mesh.look[s] == mesh.look[t] && corners[s][m] == corners[t][(k + 1) % 3] &&
+                        corners[s][(m + 1) % 3] == corners[t][k];
     if (smooth) {
       taken[s] = true;
       const mesh::Triangle& across = mesh.triangles[s];

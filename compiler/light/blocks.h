@@ -8,7 +8,8 @@
 
 namespace orbc::light {
 
-/// Two neighbouring triangles of one look, or one, as a square of the atlas: corners 00, 10, 01 are those of `first`, 11 is the other one of `second`.
+/// Two neighbouring triangles of one look, or one, as a square of the atlas: corners 00, 10, 01 are those of `first`, 11 is the other one
+/// of `second`.
 struct Block {
   std::uint32_t part = 0;
   std::uint32_t first = 0;

@@ -45,7 +45,8 @@ place::PlacedMesh plate(Space space, const HungLamp& lamp, const scene::Lamp& sp
   const int around = round ? 32 : 4;
   for (int i = 0; i < around; ++i) {
     const double turn = 2 * std::numbers::pi * i / around;
-    const double x = round ? spec.radius * std::cos(turn) : spec.size[0] * (i == 0 || i == 3 ? 0.5 : -0.5), y = round ? spec.radius * std::sin(turn) : spec.size[1] * (i < 2 ? 0.5 : -0.5);
+    const double x = round ? spec.radius * std::cos(turn) : spec.size[0] * (i == 0 || i == 3 ? 0.5 : -0.5),
+                 y = round ? spec.radius * std::sin(turn) : spec.size[1] * (i < 2 ? 0.5 : -0.5);
     add_vertex(mesh, exponential(space, lamp.centre, frame, x * across + y * other), height);
     mesh.triangles.push_back({0, static_cast<std::uint32_t>(1 + i), static_cast<std::uint32_t>(1 + (i + 1) % around)});
   }
@@ -66,7 +67,8 @@ place::PlacedMesh tube(Space space, const HungLamp& lamp, const scene::Lamp& spe
     const Vector3 across = h < 1e-9 ? Vector3{1, 0, 0} : Vector3{-d.y / h, d.x / h, 0}, other = geometry::cross(d, across);
     for (int i = 0; i < kAround; ++i) {
       const double turn = 2 * std::numbers::pi * i / kAround;
-      add_vertex(mesh, exponential(space, at, frame, (spec.radius * std::cos(turn)) * across + (spec.radius * std::sin(turn)) * other), height);
+      add_vertex(mesh, exponential(space, at, frame, (spec.radius * std::cos(turn)) * across + (spec.radius * std::sin(turn)) * other),
+                 height);
     }
   }
   const auto id = [](int j, int i) { return static_cast<std::uint32_t>(j * kAround + i % kAround); };
@@ -84,7 +86,9 @@ place::PlacedMesh tube(Space space, const HungLamp& lamp, const scene::Lamp& spe
 
 }  // namespace
 
-int lamp_of(const place::PlacedMesh& part) { return part.kind == place::PartKind::object && part.wall <= kFirstMark ? kFirstMark - part.wall : -1; }
+int lamp_of(const place::PlacedMesh& part) {
+  return part.kind == place::PartKind::object && part.wall <= kFirstMark ? kFirstMark - part.wall : -1;
+}
 
 void add_fixtures(const scene::Scene& scene, const HungLamps& lamps, place::PlacedRoom& room) {
   const Space space = room.room.space;

@@ -27,10 +27,13 @@ struct Frame {
 [[nodiscard]] inline geometry::Vector3 local(geometry::Space space, const Frame& frame, const trace::Direction& d) {
   return {component(space, frame.e1, d.floor), component(space, frame.e2, d.floor), d.z};
 }
-[[nodiscard]] inline trace::Direction global(const Frame& frame, const geometry::Vector3& v) { return {v.x * frame.e1 + v.y * frame.e2, v.z}; }
+[[nodiscard]] inline trace::Direction global(const Frame& frame, const geometry::Vector3& v) {
+  return {v.x * frame.e1 + v.y * frame.e2, v.z};
+}
 
 /// The position that a vector at `from` leads to: the exponential map of the product geometry.
-[[nodiscard]] inline geometry::Position exponential(geometry::Space space, const geometry::Position& from, const Frame& frame, const geometry::Vector3& v) {
+[[nodiscard]] inline geometry::Position exponential(geometry::Space space, const geometry::Position& from, const Frame& frame,
+                                                    const geometry::Vector3& v) {
   const double s = std::hypot(v.x, v.y);
   if (s < 1e-300) return {from.floor, from.z + v.z};
   const geometry::Ambient d = (v.x / s) * frame.e1 + (v.y / s) * frame.e2;

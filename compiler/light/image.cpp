@@ -1,4 +1,5 @@
-// The unfolding of light: a path from a surface point over mirrors to the lamp is a straight geodesic to the lamp's image. Plain walls bar a letter altogether for
+// The unfolding of light: a path from a surface point over mirrors to the lamp is a straight geodesic to the lamp's image. Plain walls bar
+//                         a letter altogether for
 // the reason given at cover::walk_reach.
 #include "compiler/light/image.h"
 
@@ -107,14 +108,16 @@ std::vector<Storey> storeys(const Mirrors& mirrors, double height, int bounces) 
 }
 
 trace::Direction image_of(const Isometry& map, const Storey& storey, const trace::Direction& d) {
-  const double k = geometry::curvature(map.space), h = std::sqrt(std::max(0.0, d.floor.x * d.floor.x + d.floor.y * d.floor.y + k * d.floor.w * d.floor.w));
+  const double k = geometry::curvature(map.space),
+               h = std::sqrt(std::max(0.0, d.floor.x * d.floor.x + d.floor.y * d.floor.y + k * d.floor.w * d.floor.w));
   if (h < 1e-12) return {{0, 0, 0}, storey.sign * d.z};
   const geometry::Tangent t = map * geometry::Tangent(d.floor.w / h, d.floor.x / h, d.floor.y / h);
   return {h * t, storey.sign * d.z};
 }
 
 bool is_orbifold(const place::PlacedRoom& room) {
-  return std::all_of(room.room.orbifold.corners.begin(), room.room.orbifold.corners.end(), [](const Rational& k) { return denominator(k) == 1; });
+  return std::all_of(room.room.orbifold.corners.begin(), room.room.orbifold.corners.end(),
+                     [](const Rational& k) { return denominator(k) == 1; });
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct LampImage {
 };
 
 /// The images of all lamps that paths of at most `bounces` mirrors can lead to.
-/// Makes: orbifolds: every copy once, by normal forms, copies behind walls without mirrors left out, on S² also those seen past the antipode; floor and ceiling
+/// Makes: orbifolds: every copy once, by normal forms, copies behind walls without mirrors left out, on S² also those seen past the
+///        antipode; floor and ceiling
 ///        mirrors repeat them above and below. Other rooms: one image for every word of mirrors.
 /// Not promised: that a path arrives. Which do, and with which weight, the mirrors themselves say (trace::follow).
 [[nodiscard]] std::vector<LampImage> lamp_images(const std::vector<HungLamp>& lamps, const place::PlacedRoom& room, int bounces);

@@ -1,4 +1,5 @@
-// Samples: a Kronecker sequence (golden ratio, and in two dimensions the plastic number: Roberts, The unreasonable effectiveness of quasirandom sequences,
+// Samples: a Kronecker sequence (golden ratio, and in two dimensions the plastic number: Roberts, The unreasonable effectiveness of
+//          quasirandom sequences,
 // 2018), whose every beginning is well spread; spheres by Archimedes' map from the cylinder.
 #include "compiler/light/lamp.h"
 
@@ -59,8 +60,10 @@ Vector3 offset(const scene::Lamp& lamp, const Mount& mount, int i) {
   const auto [u, v] = spread(i);
   if (lamp.kind == LampKind::rectangle) return ((u - 0.5) * lamp.size[0]) * mount.across + ((v - 0.5) * lamp.size[1]) * mount.other;
   const double turn = 2 * std::numbers::pi * u;
-  if (lamp.kind == LampKind::disk) return (lamp.radius * std::sqrt(v) * std::cos(turn)) * mount.across + (lamp.radius * std::sqrt(v) * std::sin(turn)) * mount.other;
-  // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on the sphere of radius √(3/4) of it.
+  if (lamp.kind == LampKind::disk)
+    return (lamp.radius * std::sqrt(v) * std::cos(turn)) * mount.across + (lamp.radius * std::sqrt(v) * std::sin(turn)) * mount.other;
+  // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on the sphere of radius √(3/4) of
+  //                                                                                                     it.
   const double z = 1 - 2 * v, r = std::sqrt(std::max(0.0, 1 - z * z)), size = lamp.radius * 0.8660254037844386;
   return {size * r * std::cos(turn), size * r * std::sin(turn), size * z};
 }
@@ -144,10 +147,13 @@ Result<HungLamps> hang_lamps(const scene::Scene& scene, const room::Room& room) 
     const auto out = std::find_if(hung.samples.begin(), hung.samples.end(), [&](const Position& p) { return !inside(room, height, p); });
     if (out != hung.samples.end()) {
       fail({make_error("light.lamp-in-wall", fmt::format("lamp {} reaches through a wall, the floor or the ceiling", i + 1),
-                       fmt::format("move it into the room, or make it smaller; the room is {} high", place::to_text(height)), lamp.place.span)});
+                       fmt::format("move it into the room, or make it smaller; the room is {} high", place::to_text(height)),
+                       lamp.place.span)});
       continue;
     }
-    if (lamp.power <= 0) result.warnings.push_back(make_warning("light.no-power", fmt::format("lamp {} has no power", i + 1), "give it a `power`, such as 10", lamp.span));
+    if (lamp.power <= 0)
+      result.warnings.push_back(
+          make_warning("light.no-power", fmt::format("lamp {} has no power", i + 1), "give it a `power`, such as 10", lamp.span));
     result.lamps.push_back(std::move(hung));
   }
   if (has_error(errors)) return errors;

@@ -8,7 +8,8 @@
 namespace orbc::light {
 
 /// A lamp of a scene, hung in its room: where its light starts, and how much of it goes where.
-/// Samples are fixed points of the lamp, so that two roads and two runs see the same shadow; every beginning of the list is spread over the whole lamp.
+/// Samples are fixed points of the lamp, so that two roads and two runs see the same shadow; every beginning of the list is spread over the
+/// whole lamp.
 struct HungLamp {
   scene::LampKind kind = scene::LampKind::point;
   scene::Falloff falloff = scene::Falloff::geodesic;
@@ -22,21 +23,25 @@ struct HungLamp {
   std::vector<trace::Direction> axes;       ///< per sample: unit direction that it faces (tube: along it)
 };
 
-/// How much brighter than a lamp that shines alike to all sides it is in a direction at angle θ to its axis; its mean over all directions is 1.
-/// Formula: sphere, point 1; rectangle and disk, lit on one side, 4·cosθ (Lambert); tube (4/π)·sinθ (Lambert); spot: constant inside, a smooth step over the
+/// How much brighter than a lamp that shines alike to all sides it is in a direction at angle θ to its axis; its mean over all directions
+/// is 1.
+/// Formula: sphere, point 1; rectangle and disk, lit on one side, 4·cosθ (Lambert); tube (4/π)·sinθ (Lambert); spot: constant inside, a
+///          smooth step over the
 ///          outer tenth of its cone.
 [[nodiscard]] double profile(const HungLamp& lamp, double cos_axis);
 
 /// Hangs the lamps of a scene.
 /// Makes:       in the order of the scene. Without a height they hang at 9/10 of the room's height; without `to` they face the floor.
-/// Diagnostics: those of place::locate; light.lamp-in-wall when part of a lamp is outside of the room; light.no-power (a warning in `warnings`).
+/// Diagnostics: those of place::locate; light.lamp-in-wall when part of a lamp is outside of the room; light.no-power (a warning in
+///              `warnings`).
 struct HungLamps {
   std::vector<HungLamp> lamps;
   Diagnostics warnings;
 };
 [[nodiscard]] Result<HungLamps> hang_lamps(const scene::Scene& scene, const room::Room& room);
 
-/// Puts the bodies of the visible lamps into the room, as its last parts: spheres, plates and tubes that glow and cast no shadow. Points and spots have none.
+/// Puts the bodies of the visible lamps into the room, as its last parts: spheres, plates and tubes that glow and cast no shadow. Points
+/// and spots have none.
 void add_fixtures(const scene::Scene& scene, const HungLamps& lamps, place::PlacedRoom& room);
 /// Which lamp of the scene a part is the body of (from 0), or −1.
 [[nodiscard]] int lamp_of(const place::PlacedMesh& part);

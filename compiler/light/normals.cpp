@@ -28,7 +28,8 @@ Vector3 corner_normal(Space space, const Frame& frame, const PlacedMesh& mesh, c
 }
 
 bool same_place(const PlacedMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  return mesh.floor[a].w == mesh.floor[b].w && mesh.floor[a].x == mesh.floor[b].x && mesh.floor[a].y == mesh.floor[b].y && mesh.z[a] == mesh.z[b];
+  return mesh.floor[a].w == mesh.floor[b].w && mesh.floor[a].x == mesh.floor[b].x && mesh.floor[a].y == mesh.floor[b].y &&
+         mesh.z[a] == mesh.z[b];
 }
 
 struct Corner {
@@ -38,7 +39,8 @@ struct Corner {
 };
 
 // The corners that meet in one place: each gets the sum over those within the crease angle of its own triangle.
-void smooth_place(Space space, const PlacedMesh& mesh, const Frame& frame, std::vector<Corner>& here, double cos_crease, PartNormals& result) {
+void smooth_place(Space space, const PlacedMesh& mesh, const Frame& frame, std::vector<Corner>& here, double cos_crease,
+                  PartNormals& result) {
   for (Corner& c : here) c.normal = corner_normal(space, frame, mesh, mesh.triangles[c.triangle], c.k);
   struct Known {
     std::uint32_t vertex, id;
@@ -119,7 +121,8 @@ LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, co
   return point;
 }
 
-LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, const PartNormals& normals, std::size_t triangle, const std::array<double, 3>& b) {
+LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, const PartNormals& normals, std::size_t triangle,
+                       const std::array<double, 3>& b) {
   const Space space = room.room.space;
   const mesh::Triangle& t = part.triangles[triangle];
   LightPoint point;

@@ -14,7 +14,8 @@ struct ShadingVertex {
   trace::Direction normal;          ///< unit, at the vertex
 };
 
-/// The normals by which a part is lit: of objects, those of neighbouring triangles that meet at less than the crease angle flow into each other.
+/// The normals by which a part is lit: of objects, those of neighbouring triangles that meet at less than the crease angle flow into each
+///                                     other.
 struct PartNormals {
   std::vector<ShadingVertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> corners;  ///< per triangle, into `vertices`
@@ -28,12 +29,15 @@ struct PartNormals {
 struct LightPoint {
   geometry::Position at;
   trace::Direction normal;          ///< unit: the interpolated one
-  geometry::Position origin;        ///< where shadow rays start: on the smooth surface, so that flat triangles do not shade themselves at the light's rim
+  geometry::Position
+      origin;  ///< where shadow rays start: on the smooth surface, so that flat triangles do not shade themselves at the light's rim
   int wall = -1;                    ///< it lies on this wall
   bool on_triangle = true;          ///< false: on a wall, the floor or the ceiling
 };
-/// Origin: Hanika, Hacking the shadow terminator, Ray Tracing Gems II (2021), ch. 4: the point projected to the tangent planes of the corners, mixed.
-[[nodiscard]] LightPoint light_point(const place::PlacedRoom& room, const place::PlacedMesh& part, const PartNormals& normals, std::size_t triangle, const std::array<double, 3>& b);
+/// Origin: Hanika, Hacking the shadow terminator, Ray Tracing Gems II (2021), ch. 4: the point projected to the tangent planes of the
+///         corners, mixed.
+[[nodiscard]] LightPoint light_point(const place::PlacedRoom& room, const place::PlacedMesh& part, const PartNormals& normals,
+                                     std::size_t triangle, const std::array<double, 3>& b);
 /// A vertex with one of its normals.
 [[nodiscard]] LightPoint light_point(const place::PlacedRoom& room, const place::PlacedMesh& part, const ShadingVertex& vertex);
 

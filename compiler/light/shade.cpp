@@ -1,4 +1,5 @@
-// Light of a point: for every image of every lamp the straight geodesic to it, and, if it could matter, a shadow ray that is really turned back by the mirrors. How
+// Light of a point: for every image of every lamp the straight geodesic to it, and, if it could matter, a shadow ray that is really turned
+//                   back by the mirrors. How
 // many points of a lamp are asked follows from what the image could add: a step of its shadow stays below what 8 bits show.
 #include "compiler/light/shade.h"
 
@@ -94,12 +95,14 @@ ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double
     path.weight = path.weight * mirror->weight;
     if (exit.surface >= 0) path.walls[static_cast<std::size_t>(path.crossed++)] = static_cast<std::int16_t>(exit.surface);
     length -= exit.t;
-    ray = exit.surface >= 0 ? trace::reflected_in_wall(scene.prism, ray, exit.t, exit.surface) : trace::reflected_in_plane(scene.prism, ray, exit.t, exit.surface);
+    ray = exit.surface >= 0 ? trace::reflected_in_wall(scene.prism, ray, exit.t, exit.surface)
+                            : trace::reflected_in_plane(scene.prism, ray, exit.t, exit.surface);
   }
 }
 
 /// What a path brings along: nothing, or the weight of its mirrors.
-Color arriving(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point, const Way& way) {
+Color arriving(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point,
+               const Way& way) {
   const Space space = field.scene.prism.space;
   trace::Ray ray = trace::ray_from(space, point.origin, way.start);
   ray.leaves_wall = point.wall;
@@ -119,7 +122,8 @@ Color arriving(const LightField& field, const LampImage& image, const HungLamp& 
 }
 
 /// Light per unit of power that would come from a sample if nothing stood between, on a surface across the path; times its profile.
-double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point, const Way& way) {
+double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point,
+                  const Way& way) {
   const Space space = field.scene.prism.space;
   double value = falloff(lamp.falloff, space, way.length, way.arc, lamp.radius);
   if (lamp.kind == scene::LampKind::point || lamp.kind == scene::LampKind::sphere) return value;
@@ -134,7 +138,8 @@ Color gather(const LightField& field, const LampImage& image, const LightPoint& 
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way middle = way_to(space, point.origin, image.samples[0], image.sheet);
   const double power = largest(lamp.power) / std::numbers::pi * field.exposure;
-  double most = power * image.weight * lamp.gain * falloff(lamp.falloff, space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
+  double most = power * image.weight * lamp.gain *
+                falloff(lamp.falloff, space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
   if (most < field.options.cut) return {};
   if (by_cosine && middle.exists) {  // the lamp's own extent turns the direction to its samples by little
     const double cosine = trace::inner(space, middle.start, point.normal) + 2 * lamp.extent / middle.length;
@@ -174,7 +179,8 @@ bool inside_something(const trace::TraceScene& scene, const Position& p) {
 
 }  // namespace
 
-Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options, const Executor& executor) {
+Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options,
+                                 const Executor& executor) {
   LightField field;
   field.lit = !scene.lamps.empty();
   if (!field.lit) {
@@ -193,12 +199,16 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
   executor(room.parts.size(), [&](std::size_t i) { field.normals[i] = part_normals(room, room.parts[i]); });
   auto casting = std::make_shared<place::PlacedRoom>(room);
   casting->textures.clear();
-  casting->parts.erase(std::remove_if(casting->parts.begin(), casting->parts.end(), [](const place::PlacedMesh& part) { return lamp_of(part) >= 0; }), casting->parts.end());
+  casting->parts.erase(
+      std::remove_if(casting->parts.begin(), casting->parts.end(), [](const place::PlacedMesh& part) { return lamp_of(part) >= 0; }),
+      casting->parts.end());
   field.casting = casting;
   field.scene = trace::prepare(*field.casting, executor);
   for (std::size_t i = 0; i < field.lamps.size(); ++i)
     if (inside_something(field.scene, field.lamps[i].centre))
-      field.warnings.push_back(make_warning("light.lamp-inside-object", fmt::format("lamp {} is inside an object, which keeps its light", i + 1), "move it out", scene.lamps[i].span));
+      field.warnings.push_back(make_warning("light.lamp-inside-object",
+                                            fmt::format("lamp {} is inside an object, which keeps its light", i + 1), "move it out",
+                                            scene.lamps[i].span));
   return field;
 }
 
@@ -211,7 +221,8 @@ Color irradiance(const LightField& field, const LightPoint& point) {
 }
 
 Color radiance_out(const LightField& field, const scene::Material& material, const Color& albedo, const Color& e) {
-  Color out = material.kind == scene::MaterialKind::emissive ? material.emission * albedo : albedo * (field.ambient + (1 / std::numbers::pi) * e);
+  Color out =
+      material.kind == scene::MaterialKind::emissive ? material.emission * albedo : albedo * (field.ambient + (1 / std::numbers::pi) * e);
   const double white = 1 / std::max(field.exposure, 1e-300);
   return {std::min(out.r, white), std::min(out.g, white), std::min(out.b, white)};
 }
@@ -224,7 +235,8 @@ LightPoint light_point(const LightField& field, const place::PlacedRoom& room, c
   return {point.at, point.normal, point.at, point.wall, false};
 }
 
-Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material, const Color& albedo) {
+Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material,
+                const Color& albedo) {
   const Space space = field.scene.prism.space;
   const double alpha = std::max(material.roughness * material.roughness, 0.002), a2 = alpha * alpha;
   const double nv = trace::inner(space, point.normal, to_eye);

@@ -29,23 +29,31 @@ struct LightField {
   Diagnostics warnings;             ///< light.lamp-inside-object, light.no-power
 };
 
-/// Hangs the lamps, finds their images, prepares shadows. In: the room with its fixtures (add_fixtures). A scene without lamps costs nothing.
-[[nodiscard]] Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options = {}, const Executor& executor = serial_executor());
+/// Hangs the lamps, finds their images, prepares shadows. In: the room with its fixtures (add_fixtures). A scene without lamps costs
+/// nothing.
+[[nodiscard]] Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options = {},
+                                               const Executor& executor = serial_executor());
 
 /// Power per area that falls on a surface point from all lamps, straight and over mirrors.
 /// Units:  a lamp of power Φ gives Φ/(4πr²) at distance r in E², face on. Ambient light is not in it.
-/// Error:  shadows of lamps with an extent are those of 32 points; images below `cut` are left out; light that comes by surfaces other than mirrors is not in it.
+/// Error:  shadows of lamps with an extent are those of 32 points; images below `cut` are left out; light that comes by surfaces other than
+///         mirrors is not in it.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point);
 
-/// What a matte surface of the given colour sends to every eye: colour × (ambient + E/π), so that white under E = π shows as white at exposure 1; emissive ones
-/// emission × colour. Never more than white after exposure: a picture of the room, hung into all copies, holds no more, and both roads must agree.
-[[nodiscard]] scene::Color radiance_out(const LightField& field, const scene::Material& material, const scene::Color& albedo, const scene::Color& irradiance);
+/// What a matte surface of the given colour sends to every eye: colour × (ambient + E/π), so that white under E = π shows as white at
+///                                                              exposure 1; emissive ones
+/// emission × colour. Never more than white after exposure: a picture of the room, hung into all copies, holds no more, and both roads must
+/// agree.
+[[nodiscard]] scene::Color radiance_out(const LightField& field, const scene::Material& material, const scene::Color& albedo,
+                                        const scene::Color& irradiance);
 
 /// The point that a ray has met, made ready to be lit.
-[[nodiscard]] LightPoint light_point(const LightField& field, const place::PlacedRoom& room, const trace::SurfacePoint& point, const trace::Hit& hit);
+[[nodiscard]] LightPoint light_point(const LightField& field, const place::PlacedRoom& room, const trace::SurfacePoint& point,
+                                     const trace::Hit& hit);
 
 /// The light of glossy and metal surfaces that a matte one does not have: the lamps' reflections in it, towards the eye.
 /// Formula: GGX (Walter et al., Microfacet Models for Refraction, 2007) with Smith's shadowing and Schlick's Fresnel; α = roughness².
-[[nodiscard]] scene::Color highlight(const LightField& field, const LightPoint& point, const trace::Direction& to_eye, const scene::Material& material, const scene::Color& albedo);
+[[nodiscard]] scene::Color highlight(const LightField& field, const LightPoint& point, const trace::Direction& to_eye,
+                                     const scene::Material& material, const scene::Color& albedo);
 
 }  // namespace orbc::light
