@@ -7,6 +7,7 @@
 #include "compiler/cli/output.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/support.h"
+#include "compiler/driver/compare.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace.h"
 #include "compiler/mesh/image.h"
@@ -19,12 +20,20 @@ std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// povray-pipe takes 1 or 9 samples; Blender any number.
-std::vector<std::string> drawing_command(const RenderArguments& a, const std::string& scene, const std::string& picture, const Common& common) {
+// POV-Ray's own antialiasing samples only where neighbours differ and blends encoded colours; a picture n times larger, averaged in linear
+// light, has n² true samples a pixel. Blender takes any number.
+int side_of(int samples) {
+  const int side = static_cast<int>(std::lround(std::sqrt(samples)));
+  if (side * side != samples || side > 16) throw UsageError("POV-Ray takes a square number of samples a pixel: 1, 4, 9, 16, ... 256");
+  return side;
+}
+
+std::vector<std::string> drawing_command(const RenderArguments& a, const driver::Opened& opened, const std::string& scene, const std::string& picture, const Common& common) {
   std::vector<std::string> command;
   if (a.engine == "povray") {
     command = {shipped_script("povray-pipe"), scene, "-o", picture};
-    if (a.samples > 1) command.push_back("--antialias");
+    const int side = side_of(a.samples);
+    if (side > 1) command.insert(command.end(), {fmt::format("+W{}", side * opened.eye.width), fmt::format("+H{}", side * opened.eye.height)});
     if (common.threads > 0) command.push_back(fmt::format("+WT{}", common.threads));
   } else {
     command = {shipped_script("render_blender.py"), scene, "-o", picture, "--samples", std::to_string(a.samples)};
@@ -34,6 +43,9 @@ std::vector<std::string> drawing_command(const RenderArguments& a, const std::st
 }
 
 int render_elsewhere(const RenderArguments& a, const Common& common) {
+  if (a.engine == "povray") (void)side_of(a.samples);
+  const auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
+  if (!opened) return print(opened.error(), common), kSceneWrong;
   const TemporaryFolder folder;
   CompileArguments exported = a.compile;
   exported.output = (folder.path() / (a.engine == "povray" ? "scene.pov" : "scene.glb")).string();
@@ -42,9 +54,16 @@ int render_elsewhere(const RenderArguments& a, const Common& common) {
   if (const int code = compile(exported, within); code != kDone) return code;
   const std::string picture = (folder.path() / "picture.png").string();
   if (!common.quiet && stderr_is_terminal()) fmt::print(stderr, "{} draws ...\n", a.engine);
-  const int code = run_program(drawing_command(a, exported.output, picture, common), true);
+  const int code = run_program(drawing_command(a, *opened, exported.output, picture, common), true);
   if (code != 0) return code == 127 ? kMachine : code;
-  write_output(a.compile.output, read_file(picture));
+  const int side = a.engine == "povray" ? side_of(a.samples) : 1;
+  if (side == 1) {
+    write_output(a.compile.output, read_file(picture));
+  } else {
+    const auto large = mesh::load_image(picture, {.max_side = 1 << 20, .max_bytes = std::uint64_t{8} << 30});
+    if (!large) throw std::runtime_error("cannot read back POV-Ray's picture: " + to_text(large.error()));
+    write_output(a.compile.output, mesh::encode_png(driver::averaged(*large, side)));
+  }
   if (!common.quiet) fmt::print(stderr, "{}: drawn by {}\n", a.compile.output, a.engine);
   return kDone;
 }

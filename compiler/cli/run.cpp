@@ -115,7 +115,7 @@ void define_trace(CLI::App& app, RenderArguments& a, Common& common) {
 void define_verify(CLI::App& app, VerifyArguments& a, Common& common) {
   CLI::App* c = app.add_subcommand("verify", "Draw a scene by both roads, export and tracer, and compare the pictures pixel by pixel");
   add_scene(*c, a.compile.scene);
-  c->add_option("--samples", a.samples, "Samples per pixel, the same for both: 1 or 9")->capture_default_str()->check(CLI::IsMember({1, 9}))->type_name("N");
+  c->add_option("--samples", a.samples, "Samples per pixel, a square number, at the same points for both")->capture_default_str()->check(CLI::IsMember({1, 4, 9, 16, 25, 36, 49, 64}))->type_name("N");
   c->add_flag("--blender", a.blender, "Compare Blender's picture too");
   c->add_option("--within", a.within, "A pixel agrees when it differs by at most so many steps of 1/255: 1, 2, 4 or 8")->capture_default_str()->check(CLI::IsMember({1, 2, 4, 8}))->type_name("N");
   c->add_option("--threshold", a.threshold, "Share of pixels that must agree")->capture_default_str()->check(CLI::Range(0.0, 1.0))->type_name("SHARE");

@@ -1,9 +1,12 @@
 #include "compiler/driver/compare.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 
 #include "compiler/base/check.h"
+#include "compiler/scene/color.h"
 
 namespace orbc::driver {
 namespace {
@@ -54,6 +57,27 @@ Comparison compare(const mesh::Image& a, const mesh::Image& b) {
   }
   c.mean = c.pixels ? static_cast<double>(sum) / static_cast<double>(c.pixels) : 0;
   return c;
+}
+
+mesh::Image averaged(const mesh::Image& large, int side) {
+  ORBC_CHECK(large.width % side, ==, 0);
+  ORBC_CHECK(large.height % side, ==, 0);
+  std::array<double, 256> linear{};
+  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = scene::decode_srgb(static_cast<double>(i) / 255);
+  mesh::Image image{large.width / side, large.height / side, {}};
+  image.rgba.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      std::array<double, 3> sum{};
+      for (int v = 0; v < side; ++v)
+        for (int u = 0; u < side; ++u) {
+          const std::size_t at = 4 * (static_cast<std::size_t>(y * side + v) * static_cast<std::size_t>(large.width) + static_cast<std::size_t>(x * side + u));
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += linear[large.rgba[at + c]];
+        }
+      for (const double channel : sum) image.rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(channel / (side * side)))));
+      image.rgba.push_back(255);
+    }
+  return image;
 }
 
 mesh::Image difference_picture(const mesh::Image& a, const mesh::Image& b) {

@@ -103,7 +103,11 @@ std::string report_json(const Compiled& compiled) {
   nlohmann::ordered_json json{{"orbifold", compiled.product.title}, {"copies", r.copies}, {"vertices", r.vertices}, {"triangles", r.triangles},
                               {"longest_word", r.longest_word}, {"error_bound_px", r.error_bound_px},
                               {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}}};
-  return json.dump(2) + "\n";
+  nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
+  for (const DrawnCopy& c : compiled.product.copies)
+    list.push_back({{"word", cover::to_string(c.word)}, {"bounces", c.bounces}, {"sheet", c.sheet}, {"mirrored", c.reversing}, {"weight", {c.tint.r, c.tint.g, c.tint.b}},
+                    {"distance", c.distance}, {"triangles", c.index_count / 3}});
+  return json.dump(1) + "\n";
 }
 
 }  // namespace orbc::driver
