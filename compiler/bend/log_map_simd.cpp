@@ -1,5 +1,6 @@
 // The fast twin of log_map.cpp. Idea and measured alternatives: the matrix product must be double (in float, cancellation near the eye and
-// near the antipode costs 250 and 1000 ulp), the arc length may be float. Highway compiles this file once per instruction set and picks one at run time.
+// near the antipode costs 250 and 1000 ulp), the arc length may be float. Highway compiles this file once per instruction set and picks one
+// at run time.
 //   H²: r = asinh ρ = log1p(ρ + ρ²/(1 + √(1+ρ²)));   S²: r = atan2(ρ, w);   the image is (x, y)·(reach/ρ).
 // Polynomials: interpolation at Chebyshev nodes; relative errors of log1p and atan 3e-9 and 2.5e-8.
 #ifndef __EMSCRIPTEN__
@@ -21,11 +22,13 @@ namespace orbc::bend {
 namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 // The fallback for machines below SSSE3: the scalar twin's formula.
-void BendVectors(int curvature, const double* m, float base, const double* w, const double* x, const double* y, const float* z, std::size_t count,
-                 float* out) {
+void BendVectors(int curvature, const double* m, float base, const double* w, const double* x, const double* y, const float* z,
+                 std::size_t count, float* out) {
   for (std::size_t i = 0; i < count; ++i, out += 3) {
     const double u = m[3] * w[i] + m[4] * x[i] + m[5] * y[i], v = m[6] * w[i] + m[7] * x[i] + m[8] * y[i], rho = std::hypot(u, v);
-    const double r = curvature == 0 ? rho : curvature < 0 ? std::asinh(rho) : base + std::atan2(rho, m[0] * w[i] + m[1] * x[i] + m[2] * y[i]);
+    const double r = curvature == 0  ? rho
+                     : curvature < 0 ? std::asinh(rho)
+                                     : base + std::atan2(rho, m[0] * w[i] + m[1] * x[i] + m[2] * y[i]);
     const double factor = rho < 1e-15 ? 1 : r / rho;
     out[0] = static_cast<float>(u * factor);
     out[1] = static_cast<float>(v * factor);
@@ -51,7 +54,7 @@ HWY_INLINE Float polynomial(Float x, const float (&c)[N]) {
 
 /// log(1 + u) for u ≥ 0: 1 + u = 2^k (1 + f) with |f| < 0.42, what 1 + u has rounded off is given back to f.
 HWY_INLINE Float log1p_of(Float u) {
-  static constexpr float kLog[] = {0.333333313f,  -0.24999997f,  0.200007156f,  -0.166678026f, 0.142490581f,
+  static constexpr float kLog[] = {0.333333313f,  -0.24999997f, 0.200007156f,  -0.166678026f, 0.142490581f,
                                    -0.124256872f, 0.116854198f, -0.114797339f, 0.0697161108f};
   const FloatTag df;
   const hn::RebindToSigned<FloatTag> di;
@@ -74,7 +77,7 @@ HWY_INLINE Float log1p_of(Float u) {
 
 /// atan2(ρ, w) for ρ ≥ 0, in [0, π].
 HWY_INLINE Float atan2_of(Float rho, Float w) {
-  static constexpr float kAtan[] = {-0.333333313f, 0.199997395f,  -0.142785683f, 0.110337645f,  -0.0865688026f,
+  static constexpr float kAtan[] = {-0.333333313f, 0.199997395f,   -0.142785683f, 0.110337645f,   -0.0865688026f,
                                     0.0625016913f, -0.0358715393f, 0.0135077713f, -0.00238699722f};
   const auto aw = hn::Abs(w);
   const auto steep = hn::Gt(rho, aw);
@@ -100,7 +103,8 @@ HWY_INLINE Float row(const Double* m, Double w0, Double x0, Double y0, Double w1
 }
 
 template <int kCurvature>
-HWY_INLINE void bend_block(const Rows& rows, float base, const double* pw, const double* px, const double* py, const float* pz, float* out) {
+HWY_INLINE void bend_block(const Rows& rows, float base, const double* pw, const double* px, const double* py, const float* pz,
+                           float* out) {
   const FloatTag df;
   const DoubleTag dd;
   const std::size_t half = hn::Lanes(dd);
@@ -152,8 +156,8 @@ void bend_all(const double* matrix, float base, const double* w, const double* x
   std::copy_n(bent, 3 * rest, out + 3 * i);
 }
 
-void BendVectors(int curvature, const double* matrix, float base, const double* w, const double* x, const double* y,
-                 const float* z, std::size_t count, float* out) {
+void BendVectors(int curvature, const double* matrix, float base, const double* w, const double* x, const double* y, const float* z,
+                 std::size_t count, float* out) {
   if (curvature < 0) return bend_all<-1>(matrix, base, w, x, y, z, count, out);
   if (curvature > 0) return bend_all<1>(matrix, base, w, x, y, z, count, out);
   bend_all<0>(matrix, base, w, x, y, z, count, out);

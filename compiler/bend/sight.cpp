@@ -1,6 +1,7 @@
-// An error counts as it is seen: a chord is wrong by the angle between the true point and the nearest seen point of the chord. Depth along the line
-// of sight is invisible but decides what hides what; it may be wrong by kDepth times as much. What lies outside of a perspective picture, by more
-// than its own error, may be kOutside times coarser: it can never be drawn, but who turns the exported scene in a viewer should still see a room.
+// An error counts as it is seen: a chord is wrong by the angle between the true point and the nearest seen point of the chord. Depth along
+// the line of sight is invisible but decides what hides what; it may be wrong by kDepth times as much. What lies outside of a perspective
+// picture, by more than its own error, may be kOutside times coarser: it can never be drawn, but who turns the exported scene in a viewer
+// should still see a room.
 #include "compiler/bend/sight.h"
 
 #include <algorithm>
@@ -13,8 +14,8 @@ using geometry::Vector3;
 
 constexpr double kDepth = 8;
 constexpr double kOutside = 8;
-constexpr double kFrameMargin = 0.02;    // radians
-constexpr double kBetween = 1.03;        // the largest error may lie between the points looked at; measured up to 1.014
+constexpr double kFrameMargin = 0.02;  // radians
+constexpr double kBetween = 1.03;      // the largest error may lie between the points looked at; measured up to 1.014
 
 double segment_distance(const Vector3& p, const Vector3& a, const Vector3& b) {
   const Vector3 ab = b - a, ap = p - a;
@@ -23,8 +24,8 @@ double segment_distance(const Vector3& p, const Vector3& a, const Vector3& b) {
   return length(ap - t * ab);
 }
 
-/// The angle (its tangent) between the unit direction d and the nearest seen point of the segment a b; negative when it cannot tell because the segment spans
-/// more than a right angle from d.
+/// The angle (its tangent) between the unit direction d and the nearest seen point of the segment a b; negative when it cannot tell because
+/// the segment spans more than a right angle from d.
 double seen_from(const Vector3& d, const Vector3& a, const Vector3& b) {
   const double da = dot(a, d), db = dot(b, d);
   if (da < 0.05 * length(a) || db < 0.05 * length(b) || da <= 0 || db <= 0) return -1;
@@ -67,7 +68,7 @@ Sight sight_of(const place::Eye& eye, const BendOptions& options) {
       break;
     case scene::Projection::panorama:
       sight.pixels = eye.width / (2 * std::numbers::pi);
-      sight.cos_border = 0.25;     // the rows near the poles show one direction many times
+      sight.cos_border = 0.25;  // the rows near the poles show one direction many times
       break;
     case scene::Projection::cylinder:
       sight.pixels = eye.width / eye.fov.radians;
@@ -83,7 +84,8 @@ double pixels_at(const Sight& sight, const Vector3& d) {
       const double c = std::max(dot(d, sight.forward), sight.cos_border);
       return sight.pixels / (c * c);
     }
-    case scene::Projection::panorama: return sight.pixels / std::max(std::hypot(d.x, d.y), sight.cos_border);
+    case scene::Projection::panorama:
+      return sight.pixels / std::max(std::hypot(d.x, d.y), sight.cos_border);
     default: {
       const double c = std::max(std::hypot(d.x, d.y), sight.cos_border);
       return sight.pixels / (c * c);

@@ -11,10 +11,10 @@ struct Sight {
   View view = View::eye;
   geometry::Vector3 eye, forward;
   place::Eye camera;
-  double pixels = 1;                ///< per radian at the centre of the picture
-  double cos_border = 1;            ///< perspective: cosine of the angle to the corner; others: of the highest elevation that counts
-  double tolerance = 0.25;          ///< pixels, or chart length
-  bool framed = false;              ///< perspective: things may lie outside of the picture
+  double pixels = 1;        ///< per radian at the centre of the picture
+  double cos_border = 1;    ///< perspective: cosine of the angle to the corner; others: of the highest elevation that counts
+  double tolerance = 0.25;  ///< pixels, or chart length
+  bool framed = false;      ///< perspective: things may lie outside of the picture
   std::array<geometry::Vector3, 4> outward{};  ///< framed: unit normals of the picture's sides
 };
 
@@ -28,13 +28,13 @@ struct Sight {
 struct Judgement {
   double share = 0;
   bool in_picture = true;
-  int worst = 0;                    ///< of a chord: which of the points is farthest off
+  int worst = 0;  ///< of a chord: which of the points is farthest off
 };
 
 /// Judges the chord from a to b against `count` points of the true curve.
 /// `along`: 0, or the tolerance (in tolerances) for the shift of colours along the chord against the point at the same parameter.
-[[nodiscard]] Judgement judge_chord(const Sight& sight, const geometry::Vector3& a, const geometry::Vector3& b, const geometry::Vector3* curve,
-                                    const double* parameter, int count, double along);
+[[nodiscard]] Judgement judge_chord(const Sight& sight, const geometry::Vector3& a, const geometry::Vector3& b,
+                                    const geometry::Vector3* curve, const double* parameter, int count, double along);
 
 /// Judges the flat triangle against the true image of its centroid.
 [[nodiscard]] Judgement judge_centre(const Sight& sight, const std::array<geometry::Vector3, 3>& corners, const geometry::Vector3& centre,

@@ -1,10 +1,11 @@
-// Splitting by edges (red-green refinement with free patterns): an edge that is too far from its chord gets a vertex at b = ½; a triangle is cut by
-// which of its edges have one. All new vertices are computed in room coordinates, where an edge of a shared wall is the same in both copies.
+// Splitting by edges (red-green refinement with free patterns): an edge that is too far from its chord gets a vertex at b = ½; a triangle
+// is cut by which of its edges have one. All new vertices are computed in room coordinates, where an edge of a shared wall is the same in
+// both copies.
 //
-// S²: the log map tears the sphere at the antipode of the eye's foot, from sheet 1 on also at the foot itself. What comes closer than kSingular to
-// such an axis is put on it. An edge that crosses an axis is split there; a triangle around an axis is split there into three; a corner on an axis has no image
-// but a direction for every neighbour: cone (A, B, axis) becomes the quad A B B' A' with A'B' on the circle, drawn as a regular polygon that is the same for all
-// parts and for both sheets that meet there.
+// S²: the log map tears the sphere at the antipode of the eye's foot, from sheet 1 on also at the foot itself. What comes closer than
+// kSingular to such an axis is put on it. An edge that crosses an axis is split there; a triangle around an axis is split there into three;
+// a corner on an axis has no image but a direction for every neighbour: cone (A, B, axis) becomes the quad A B B' A' with A'B' on the
+// circle, drawn as a regular polygon that is the same for all parts and for both sheets that meet there.
 #include "compiler/bend/tessellate.h"
 
 #include <algorithm>
@@ -19,9 +20,9 @@ using geometry::Ambient;
 using geometry::Space;
 using geometry::Vector3;
 
-constexpr double kSingular = 1e-9;   // radians; directions as seen from the axis are good to 1e-7 here
-constexpr int kDeepest = 60;         // halvings: down to kSingular and then the circle's steps
-constexpr double kDiskRing = 100;    // View::disk: where the plane ends, the image of the antipode
+constexpr double kSingular = 1e-9;  // radians; directions as seen from the axis are good to 1e-7 here
+constexpr int kDeepest = 60;        // halvings: down to kSingular and then the circle's steps
+constexpr double kDiskRing = 100;   // View::disk: where the plane ends, the image of the antipode
 
 enum class Axis : std::uint8_t { none, foot, antipode };
 
@@ -31,22 +32,27 @@ struct Corner {
   std::array<double, 2> uv{};
   Vector3 at;
   Axis axis = Axis::none;
-  Ambient seen;                         ///< eye_from_copy · v
-  double distance = 0;                  ///< from the eye's foot, on the floor
-  double norm = 1;                      ///< of v; 1 on the surface
+  Ambient seen;         ///< eye_from_copy · v
+  double distance = 0;  ///< from the eye's foot, on the floor
+  double norm = 1;      ///< of v; 1 on the surface
 };
 
 struct Edge {
   std::uint32_t a = 0, b = 0;
-  std::int32_t mid = -1, first = -1;    ///< children: first joins a and mid, first + 1 joins mid and b
-  std::int32_t ring = -1;               ///< the vertex on the circle when one end lies on an axis
-  bool tame = false;                    ///< far within the tolerance by distances alone; so is a triangle with three such edges
+  std::int32_t mid = -1, first = -1;  ///< children: first joins a and mid, first + 1 joins mid and b
+  std::int32_t ring = -1;             ///< the vertex on the circle when one end lies on an axis
+  bool tame = false;                  ///< far within the tolerance by distances alone; so is a triangle with three such edges
 };
 
 class Splitter {
  public:
   Splitter(const CopyMap& map, const Sight& sight, const PartNet& net, std::uint64_t most)
-      : map_(map), sight_(sight), net_(net), most_(most), samples_(net.longest > 1 ? 7 : 3), densest_(map.view == View::eye ? densest(sight) : 1) {
+      : map_(map),
+        sight_(sight),
+        net_(net),
+        most_(most),
+        samples_(net.longest > 1 ? 7 : 3),
+        densest_(map.view == View::eye ? densest(sight) : 1) {
     double radius = 0;
     for (const Axis axis : {Axis::foot, Axis::antipode}) radius = std::max(radius, circle(axis));
     // Steps of the circle: its chords are judged like any other, at its own distance.
@@ -175,7 +181,8 @@ class Splitter {
     resolve(first + 1, depth + 1);
   }
 
-  /// A bound of the chord's error from the two ends alone, in tolerances; half of it is enough for a triangle as well (Kℓ²/6 against Kℓ²/8).
+  /// A bound of the chord's error from the two ends alone, in tolerances; half of it is enough for a triangle as well (Kℓ²/6 against
+  /// Kℓ²/8).
   [[nodiscard]] double quick_bound(const Corner& a, const Corner& b) const {
     constexpr double kNoBound = 1e9;
     if (map_.view == View::disk || a.axis != Axis::none || b.axis != Axis::none) return kNoBound;
@@ -195,8 +202,8 @@ class Splitter {
     return off / near * densest_ / sight_.tolerance;
   }
 
-  /// Where the edge is seen from the torn axis in the middle of its ends' directions: passing an axis closely, it turns there and nowhere else.
-  /// 0 when there is no torn axis to pass.
+  /// Where the edge is seen from the torn axis in the middle of its ends' directions: passing an axis closely, it turns there and nowhere
+  /// else. 0 when there is no torn axis to pass.
   [[nodiscard]] double bisection(const Corner& a, const Corner& b) const {
     if (map_.log.space != Space::spherical || a.axis != Axis::none || b.axis != Axis::none) return 0;
     const double p = std::hypot(a.seen.x, a.seen.y), q = std::hypot(b.seen.x, b.seen.y);
@@ -360,12 +367,14 @@ class Splitter {
   }
 
   void draw_on_axis(Three t, Three e, int on_axis) {
-    if (on_axis == 3) return;   // nothing but a piece of the axis itself
+    if (on_axis == 3) return;  // nothing but a piece of the axis itself
     if (on_axis == 2) {
-      while (corners_[t[0]].axis != Axis::none) std::rotate(t.begin(), t.begin() + 1, t.end()), std::rotate(e.begin(), e.begin() + 1, e.end());
+      while (corners_[t[0]].axis != Axis::none)
+        std::rotate(t.begin(), t.begin() + 1, t.end()), std::rotate(e.begin(), e.begin() + 1, e.end());
       return draw(t[0], ring_vertex(e[0], t[0], t[1]), ring_vertex(e[2], t[0], t[2]));
     }
-    while (corners_[t[2]].axis == Axis::none) std::rotate(t.begin(), t.begin() + 1, t.end()), std::rotate(e.begin(), e.begin() + 1, e.end());
+    while (corners_[t[2]].axis == Axis::none)
+      std::rotate(t.begin(), t.begin() + 1, t.end()), std::rotate(e.begin(), e.begin() + 1, e.end());
     const std::uint32_t a = t[0], b = t[1], b_end = ring_vertex(e[1], b, t[2]);
     if (edges_[e[2]].ring < 0) {
       // Upright, or nearly: both spokes end in one vertex.

@@ -17,12 +17,13 @@ struct PartNet {
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  ///< edge k of a triangle joins its corners k and k+1
   geometry::Point centre;                                    ///< of a circle on the floor around all vertices
   double radius = 0;
-  double low = 0, high = 0;                                  ///< range of z
-  double longest = 0, steepest = 0;                          ///< largest length on the floor and largest rise of an edge
-  double along = 0;                                          ///< > 0: colours vary inside triangles; their shift counts with this tolerance
+  double low = 0, high = 0;          ///< range of z
+  double longest = 0, steepest = 0;  ///< largest length on the floor and largest rise of an edge
+  double along = 0;                  ///< > 0: colours vary inside triangles; their shift counts with this tolerance
 };
 
-[[nodiscard]] PartNet part_net(geometry::Space space, const place::PlacedMesh& mesh, const std::vector<std::array<float, 2>>& uv, double along);
+[[nodiscard]] PartNet part_net(geometry::Space space, const place::PlacedMesh& mesh, const std::vector<std::array<float, 2>>& uv,
+                               double along);
 
 /// The curved map of one copy, for both views.
 struct CopyMap {
@@ -33,8 +34,8 @@ struct CopyMap {
 /// The image in double. In: v a positive multiple of a point (H²: in the frame of the room, where nothing cancels).
 [[nodiscard]] geometry::Vector3 image_of(const CopyMap& map, const geometry::Ambient& v, double z);
 
-/// View::eye: a bound of the acceleration of the image of a unit-speed geodesic whose points lie at distances from … to of the eye's foot; infinite where it
-/// cannot tell. Formulas: part_net.cpp.
+/// View::eye: a bound of the acceleration of the image of a unit-speed geodesic whose points lie at distances from … to of the eye's foot;
+/// infinite where it cannot tell. Formulas: part_net.cpp.
 [[nodiscard]] double acceleration(const CopyMap& map, double from, double to);
 
 /// A bound of the error (in tolerances) of drawing the part as it is, from distances alone; infinite when it cannot tell.
@@ -46,21 +47,21 @@ struct NewVertex {
   double z = 0;
   std::array<double, 2> uv{};
   geometry::Vector3 at;
-  bool fixed = false;               ///< on the circle around a singular axis of S²: `at` is its only image
+  bool fixed = false;  ///< on the circle around a singular axis of S²: `at` is its only image
 };
 
 /// A bent part: vertices [0, net.points.w.size()) are those of the part, further ones are `vertices`.
 struct Tessellation {
   std::vector<NewVertex> vertices;
   std::vector<mesh::Triangle> triangles;
-  double worst = 0;                 ///< largest error in the picture, in tolerances
-  bool too_many = false;            ///< stopped at `most` triangles
+  double worst = 0;       ///< largest error in the picture, in tolerances
+  bool too_many = false;  ///< stopped at `most` triangles
 };
 
-/// Splits the part until every chord and every triangle lies within the tolerance. Each edge is judged by itself, from what its two ends are in the
-/// room and in the picture, in an order that does not depend on the triangle: neighbours agree, so there are no cracks and no T-junctions.
-/// On S² the axes through the eye's foot and its antipode, where the image is torn, are cut out: a triangle around one becomes a ring that ends
-/// on the circle that is the image of the axis.
+/// Splits the part until every chord and every triangle lies within the tolerance. Each edge is judged by itself, from what its two ends
+/// are in the room and in the picture, in an order that does not depend on the triangle: neighbours agree, so there are no cracks and no
+/// T-junctions. On S² the axes through the eye's foot and its antipode, where the image is torn, are cut out: a triangle around one becomes
+/// a ring that ends on the circle that is the image of the axis.
 [[nodiscard]] Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, std::uint64_t most);
 
 }  // namespace orbc::bend

@@ -1,11 +1,11 @@
-// Bent positions against geodesics integrated numerically: Runge–Kutta in the disk chart of the cover, from the eye's place, in the direction and over the
-// length that the bent position says. Nothing of the formulas under test is used on the way.
-// In the chart with ds = 2|dz|/(1 + κ|z|²) a geodesic of unit speed obeys z'' = 2κ z̄ z'²/(1 + κ|z|²).
+// Bent positions against geodesics integrated numerically: Runge–Kutta in the disk chart of the cover, from the eye's place, in the
+// direction and over the length that the bent position says. Nothing of the formulas under test is used on the way. In the chart with ds =
+// 2|dz|/(1 + κ|z|²) a geodesic of unit speed obeys z'' = 2κ z̄ z'²/(1 + κ|z|²).
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/unit/bend/fixture.h"
 #include "compiler/bend/tessellate.h"
+#include "tests/unit/bend/fixture.h"
 
 using namespace orbc;
 using namespace orbc::bend;
@@ -25,8 +25,8 @@ Complex follow(double k, Complex z, Complex direction, double length, int steps,
   State s{z, direction * ((1 + k * std::norm(z)) / 2)};
   const double h = length / steps;
   for (int i = 0; i < steps; ++i) {
-    const State a = change(k, s), b = change(k, {s.z + h / 2 * a.z, s.dz + h / 2 * a.dz}), c = change(k, {s.z + h / 2 * b.z, s.dz + h / 2 * b.dz}),
-                d = change(k, {s.z + h * c.z, s.dz + h * c.dz});
+    const State a = change(k, s), b = change(k, {s.z + h / 2 * a.z, s.dz + h / 2 * a.dz}),
+                c = change(k, {s.z + h / 2 * b.z, s.dz + h / 2 * b.dz}), d = change(k, {s.z + h * c.z, s.dz + h * c.dz});
     s.z += h / 6 * (a.z + 2.0 * b.z + 2.0 * c.z + d.z);
     s.dz += h / 6 * (a.dz + 2.0 * b.dz + 2.0 * c.dz + d.dz);
     far = std::max(far, std::abs(s.z));
@@ -51,7 +51,8 @@ TEST_CASE("bent positions are where integrated geodesics from the eye end", "[be
     const auto& copy = copies[random() % copies.size()];
     // The eye's frame may be turned, too.
     place::Eye eye;
-    eye.room_from_eye = geometry::translation_to(space, polar(space, 0.4 * unit(random), 7 * unit(random))) * geometry::rotation(space, 7 * unit(random));
+    eye.room_from_eye =
+        geometry::translation_to(space, polar(space, 0.4 * unit(random), 7 * unit(random))) * geometry::rotation(space, 7 * unit(random));
     eye.z = unit(random);
     const Point x = polar(space, 0.5 * unit(random), 7 * unit(random));
     const double height = unit(random);
@@ -60,12 +61,12 @@ TEST_CASE("bent positions are where integrated geodesics from the eye end", "[be
     // A straight ray of speed 1 in eye coordinates: its horizontal part is a geodesic of speed c, its height grows linearly.
     const double length_of_ray = length(ray), c = std::hypot(ray.x, ray.y) / length_of_ray, m = ray.z / length_of_ray;
     const Complex start = geometry::disk_from_point(space, eye.room_from_eye * Point());
-    const Complex a = eye.room_from_eye.a, turn = 1.0 / (std::conj(a) * std::conj(a));   // the direction of f'(0) of the Möbius map
+    const Complex a = eye.room_from_eye.a, turn = 1.0 / (std::conj(a) * std::conj(a));  // the direction of f'(0) of the Möbius map
     const Complex direction = Complex(ray.x, ray.y) / std::hypot(ray.x, ray.y) * turn / std::abs(turn);
     double far = 0;
     const double arc = c * length_of_ray;
     const Complex end = follow(k, start, direction, arc, 4000, far);
-    if (far > 6) continue;   // S²: the chart's own far point is too near for the integrator's step
+    if (far > 6) continue;  // S²: the chart's own far point is too near for the integrator's step
     const Complex want = geometry::disk_from_point(space, copy.cover_from_room * x);
     worst = std::max(worst, std::abs(end - want) * 2 / (1 + k * std::norm(want)));
     CHECK(eye.z + m * length_of_ray == Approx(height).margin(1e-12));

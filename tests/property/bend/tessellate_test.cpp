@@ -17,7 +17,8 @@ struct Case {
   const char* name;
   int corners, order, length, sheets;
 };
-const Case kCases[] = {{"*22222", 5, 2, 3, 0}, {"*222", 3, 2, 3, 2}, {"*666", 3, 6, 4, 0}, {"*(20)(20)(20)", 3, 20, 2, 0}, {"*4^8", 8, 4, 2, 0}};
+const Case kCases[] = {
+    {"*22222", 5, 2, 3, 0}, {"*222", 3, 2, 3, 2}, {"*666", 3, 6, 4, 0}, {"*(20)(20)(20)", 3, 20, 2, 0}, {"*4^8", 8, 4, 2, 0}};
 
 std::vector<cover::Copy> copies_for(const Case& of, const PlacedRoom& room) {
   auto copies = copies_of(room, of.length);
@@ -170,11 +171,12 @@ TEST_CASE("a part has no cracks inside: every edge has two sides or lies on the 
       for (const auto& [edge, count] : sides) {
         if (count != 1) FAIL("an edge is run through twice in one direction");
         if (sides.count({edge.second, edge.first})) continue;
-        if (flat.fixed[edge.first] && flat.fixed[edge.second]) continue;   // the circle around a torn axis
+        if (flat.fixed[edge.first] && flat.fixed[edge.second]) continue;  // the circle around a torn axis
         if (net.mesh->kind == PartKind::object) FAIL("a closed mesh has got a hole");
         bool on_border = false;
         for (const auto& wall : room.room.walls) {
-          on_border |= std::fabs(value_at(wall.line, flat.v[edge.first])) < 1e-12 && std::fabs(value_at(wall.line, flat.v[edge.second])) < 1e-12;
+          on_border |=
+              std::fabs(value_at(wall.line, flat.v[edge.first])) < 1e-12 && std::fabs(value_at(wall.line, flat.v[edge.second])) < 1e-12;
         }
         if (!on_border) FAIL("an inner edge has only one side");
       }
@@ -201,7 +203,8 @@ TEST_CASE("neighbouring copies split their common wall alike and meet there", "[
         for (int side = 0; side < 2; ++side) {
           const Flat flat = flat_of(maps[side], sight_of(eye, {}), net);
           for (std::size_t i = 0; i < flat.v.size(); ++i) {
-            if (std::fabs(value_at(room.room.walls[w].line, flat.v[i])) < 1e-13 && !flat.fixed[i]) met[side][{flat.v[i].x, flat.v[i].y}] = flat.at[i];
+            if (std::fabs(value_at(room.room.walls[w].line, flat.v[i])) < 1e-13 && !flat.fixed[i])
+              met[side][{flat.v[i].x, flat.v[i].y}] = flat.at[i];
           }
         }
         REQUIRE(met[0].size() == met[1].size());
@@ -228,8 +231,18 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
   const auto nets = nets_of(room, uv);
   auto copies = with_sheets(copies_of(room, 3), 3, 3);
   const double middle = room.room.circumradius / 2;
-  const struct { double r, phi; } eyes[] = {{0, 0}, {1e-10, 0.3}, {1e-7, 0.2}, {middle, 0}, {middle, 1e-9}, {middle, 1e-5}, {middle, std::numbers::pi},
-                                            {room.room.inradius * 0.999999, std::numbers::pi}, {room.room.circumradius * 0.9999999, 0}, {0.2, 0.35}};
+  const struct {
+    double r, phi;
+  } eyes[] = {{0, 0},
+              {1e-10, 0.3},
+              {1e-7, 0.2},
+              {middle, 0},
+              {middle, 1e-9},
+              {middle, 1e-5},
+              {middle, std::numbers::pi},
+              {room.room.inradius * 0.999999, std::numbers::pi},
+              {room.room.circumradius * 0.9999999, 0},
+              {0.2, 0.35}};
   for (const auto& [r, phi] : eyes) {
     auto eye = eye_at(room.room.space, r, phi, 0.4, 0.3, -0.1);
     eye.projection = scene::Projection::panorama;
@@ -251,7 +264,8 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
         }
       }
     }
-    // Slivers along the torn circles may turn over, because depth along the line of sight may err a little; the signed sum knows no such leave.
+    // Slivers along the torn circles may turn over, because depth along the line of sight may err a little; the signed sum knows no such
+    // leave.
     CHECK(turned < 15);
     // The floors fill the disk of radius π, then the rings to 2π, 3π, 4π. Their circles are polygons of 128 or more corners.
     for (int sheet = 0; sheet < 4; ++sheet) {

@@ -14,7 +14,8 @@ namespace {
 int covers(const BentCover& cover, double x, double y) {
   int count = 0;
   for (std::size_t i = 0; i < cover.indices.size(); i += 3) {
-    const auto &a = cover.positions[cover.indices[i]], &b = cover.positions[cover.indices[i + 1]], &c = cover.positions[cover.indices[i + 2]];
+    const auto &a = cover.positions[cover.indices[i]], &b = cover.positions[cover.indices[i + 1]],
+               &c = cover.positions[cover.indices[i + 2]];
     if (a[2] != 0 || b[2] != 0 || c[2] != 0) continue;
     if (std::min({a[0], b[0], c[0]}) > x || std::max({a[0], b[0], c[0]}) < x) continue;
     const auto side = [&](const auto& p, const auto& q) { return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]); };
@@ -38,7 +39,8 @@ BentCover floors(PlacedRoom& room, const std::vector<cover::Copy>& copies, place
 }  // namespace
 
 TEST_CASE("copies tile what they reach without gap or overlap", "[bend]") {
-  const auto [corners, order, length, reach] = GENERATE(table<int, int, int, double>({{5, 2, 5, 2.5}, {4, 2, 6, 3.0}, {3, 6, 9, 2.0}, {6, 2, 4, 2.5}}));
+  const auto [corners, order, length, reach] =
+      GENERATE(table<int, int, int, double>({{5, 2, 5, 2.5}, {4, 2, 6, 3.0}, {3, 6, 9, 2.0}, {6, 2, 4, 2.5}}));
   auto room = regular_room(corners, order);
   const auto cover = floors(room, copies_of(room, length), eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1));
   std::mt19937_64 random(5);

@@ -1,7 +1,7 @@
 #include "compiler/bend/bend.h"
 
-#include <catch2/catch.hpp>
 #include <atomic>
+#include <catch2/catch.hpp>
 #include <cstring>
 #include <thread>
 
@@ -112,14 +112,15 @@ TEST_CASE("triangles keep their outside in mirror images", "[bend]") {
   const auto cover = bent(room, copies, eye, options);
   double turned = 0, whole = 0;
   for (std::size_t i = 0; i < cover.indices.size(); i += 3) {
-    const auto &a = cover.positions[cover.indices[i]], &b = cover.positions[cover.indices[i + 1]], &c = cover.positions[cover.indices[i + 2]];
+    const auto &a = cover.positions[cover.indices[i]], &b = cover.positions[cover.indices[i + 1]],
+               &c = cover.positions[cover.indices[i + 2]];
     if (a[2] != 0 || b[2] != 0 || c[2] != 0) continue;
     const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if (area < -0.05) FAIL("a floor triangle shows its underside: " << area);
     if (area < 0) turned -= area;
     whole += area;
   }
-  CHECK(turned < 0.01 * whole);   // slivers may turn over within the tolerance
+  CHECK(turned < 0.01 * whole);  // slivers may turn over within the tolerance
 }
 
 TEST_CASE("too dense a cover is refused with a tolerance that fits", "[bend]") {
@@ -171,6 +172,7 @@ TEST_CASE("work stops when the user asks", "[bend]") {
   std::atomic<bool> cancelled{true};
   Progress progress;
   progress.cancelled = &cancelled;
-  CHECK_THROWS_AS(bend::bend(room, plain_uv(room), copies_of(room, 2), eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1), {}, serial_executor(), progress),
+  CHECK_THROWS_AS(bend::bend(room, plain_uv(room), copies_of(room, 2), eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1), {},
+                             serial_executor(), progress),
                   Cancelled);
 }

@@ -117,7 +117,7 @@ inline PlacedMesh knot_part(Space space, const Point& at, double size, double z,
 struct Furnishing {
   int floor_cells = 2;
   bool walls = false;
-  bool beams = true;                ///< plain strips on top and bottom of the walls
+  bool beams = true;  ///< plain strips on top and bottom of the walls
   int knot_along = 0, knot_around = 8;
   double height = 1;
 };
@@ -154,7 +154,8 @@ inline PlacedRoom regular_room(int n, int k, const Furnishing& with = {}) {
       placed.parts.push_back(wall_part(room.space, a, b, with.height - 0.04, with.height, i, 1, 3));
     }
   }
-  if (with.knot_along > 0) placed.parts.push_back(knot_part(room.space, polar(room.space, 0.2, 0.4), 0.25, 0.5, with.knot_along, with.knot_around));
+  if (with.knot_along > 0)
+    placed.parts.push_back(knot_part(room.space, polar(room.space, 0.2, 0.4), 0.25, 0.5, with.knot_along, with.knot_around));
   placed.looks.resize(4);
   return placed;
 }
@@ -224,7 +225,8 @@ inline std::vector<std::vector<std::array<float, 2>>> plain_uv(const PlacedRoom&
   std::vector<std::vector<std::array<float, 2>>> uv;
   for (const auto& part : room.parts) {
     uv.emplace_back();
-    for (std::size_t i = 0; i < part.floor.size(); ++i) uv.back().push_back({static_cast<float>(part.floor[i].x), static_cast<float>(part.floor[i].y)});
+    for (std::size_t i = 0; i < part.floor.size(); ++i)
+      uv.back().push_back({static_cast<float>(part.floor[i].x), static_cast<float>(part.floor[i].y)});
   }
   return uv;
 }

@@ -23,7 +23,8 @@ place::PlacedRoom mirror_room(const std::string& notation, double reflectance = 
   place::PlacedRoom placed;
   placed.room = std::move(room).value();
   for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
-    if (placed.room.walls[i].reflects) placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, reflectance, {1, 1, 1}});
+    if (placed.room.walls[i].reflects)
+      placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, reflectance, {1, 1, 1}});
   }
   placed.parts.emplace_back();
   placed.parts[0].floor.resize(100);
@@ -91,7 +92,11 @@ TEST_CASE("a wall belongs to the nearer copy exactly when it separates its copy 
 }
 
 TEST_CASE("on the sphere the whole group comes back sheet after sheet", "[cover]") {
-  const struct { const char* notation; std::size_t order; int half_turn; } groups[] = {{"*222", 8, 3}, {"*235", 120, 15}, {"*33", 6, 3}, {"*", 2, 1}};
+  const struct {
+    const char* notation;
+    std::size_t order;
+    int half_turn;
+  } groups[] = {{"*222", 8, 3}, {"*235", 120, 15}, {"*33", 6, 3}, {"*", 2, 1}};
   for (const auto& group : groups) {
     CAPTURE(group.notation);
     const auto room = mirror_room(group.notation);
@@ -118,7 +123,7 @@ TEST_CASE("a path ends before its weight falls below the least one", "[cover]") 
   const auto room = mirror_room("*22222", 0.8);
   int most = 0;
   for (const auto& copy : copies_of(room, {100, 0.5, 0, {}})) most = std::max(most, copy.bounces);
-  CHECK(most == 3);   // 0.8³ = 0.512, 0.8⁴ = 0.41
+  CHECK(most == 3);  // 0.8³ = 0.512, 0.8⁴ = 0.41
   auto tinted = mirror_room("*22222", 0.8);
   for (auto& mirror : tinted.mirrors) mirror.tint = {1, 0.5, 0.1};
   CHECK(copies_of(tinted, {100, 0.5, 0, {}}).back().bounces == 3);
@@ -129,7 +134,7 @@ TEST_CASE("behind a plain wall there are no copies", "[cover]") {
   auto room = mirror_room("*333");
   room.mirrors.erase(room.mirrors.begin() + 1);
   const auto copies = copies_of(room, {10, 0, 0, {}});
-  CHECK(copies.size() == 6);   // walls 1 and 3 make the dihedral group of order 6
+  CHECK(copies.size() == 6);  // walls 1 and 3 make the dihedral group of order 6
   for (const auto& copy : copies) {
     for (const auto wall : copy.word) CHECK(wall != 1);
     CHECK((copy.nearer_walls & 2) == 0);
