@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 #include "compiler/mesh/examine.h"
@@ -274,7 +274,7 @@ TEST_CASE("bent bytes are a mesh or a diagnostic, in bounded time", "[mesh]") {
   std::mt19937 random(20240229);
   for (const auto& [name, file] : good_files()) {
     INFO(name);
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = std::clock();  // of the processor: the machine may be busy with other things
     for (int round = 0; round < 3000; ++round) {
       auto bytes = file.second;
       const auto flips = 1 + random() % 4;
@@ -303,8 +303,7 @@ TEST_CASE("bent bytes are a mesh or a diagnostic, in bounded time", "[mesh]") {
         for (const auto v : t) REQUIRE(v < loaded->mesh.positions.size());
       }
     }
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    CHECK(spent.count() < 60);
+    CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 60);
   }
 }
 
