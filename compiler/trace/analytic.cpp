@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/trace/arc.h"
+
 namespace orbc::trace {
 
 using geometry::Point;
@@ -28,9 +30,10 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
       }
     }
     if (first >= 0) {
-      const double s = space == Space::spherical ? std::numbers::pi / 2 - std::atan(largest)
+      const double s = space == Space::spherical   ? std::fabs(largest) == kEndless ? (largest > 0 ? 0 : std::numbers::pi) : arc_of_circle(largest, 1)
                        : space == Space::euclidean ? 1 / largest
-                                                   : std::atanh(1 / largest);
+                       : largest == kEndless       ? 0
+                                                   : 0.5 * std::log((largest + 1) / (largest - 1));
       exit = {s / ray.c, first};
     }
   }
@@ -41,16 +44,59 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
   return exit;
 }
 
+namespace {
+
+/// A floor point and a direction there after arc length s; one exponential or sine and cosine for both.
+struct Place {
+  geometry::Ambient at, along;
+};
+
+Place advanced(Space space, const Ray& ray, double s) {
+  double cosine = 1, sine = s;
+  if (space == Space::spherical) cosine = std::cos(s), sine = std::sin(s);
+  if (space == Space::hyperbolic) {
+    const double e = std::exp(s);
+    cosine = 0.5 * (e + 1 / e);
+    sine = 0.5 * (e - 1 / e);
+  }
+  const geometry::Ambient p = ray.at, v = ray.along;
+  return {cosine * p + sine * v, (-geometry::curvature(space) * sine) * p + cosine * v};
+}
+
+/// Puts (P, V) back: P on its surface, V orthogonal to it and of length 1. H²: |V|² = (|V_xy|² + (P × V)²)/P_w² cannot cancel.
+void restore(Space space, const Place& from, Ray& ray) {
+  const auto& [p, v] = from;
+  if (space == Space::euclidean) {
+    const double n = 1 / std::sqrt(v.x * v.x + v.y * v.y);
+    ray.at = {1, p.x, p.y};
+    ray.along = {0, n * v.x, n * v.y};
+  } else if (space == Space::spherical) {
+    const double n = 1 / std::sqrt(p.w * p.w + p.x * p.x + p.y * p.y);
+    ray.at = {n * p.w, n * p.x, n * p.y};
+    const double radial = ray.at.w * v.w + ray.at.x * v.x + ray.at.y * v.y;
+    const geometry::Ambient t = v - radial * ray.at;
+    const double l = 1 / std::sqrt(t.w * t.w + t.x * t.x + t.y * t.y);
+    ray.along = {l * t.w, l * t.x, l * t.y};
+  } else {
+    const double w = std::sqrt(1 + p.x * p.x + p.y * p.y), turn = p.x * v.y - p.y * v.x;
+    const double n = w / std::sqrt(v.x * v.x + v.y * v.y + turn * turn);
+    ray.at = {w, p.x, p.y};
+    ray.along = {n * (v.x * p.x + v.y * p.y) / w, n * v.x, n * v.y};
+  }
+}
+
+}  // namespace
+
 Ray reflected_in_wall(const Prism& prism, const Ray& ray, double t, int wall) {
-  const geometry::Position at = position_at(prism.space, ray, t);
   const geometry::Line& n = prism.walls[wall].line;
-  const geometry::Ambient v = geometry::direction_along(prism.space, ray.at, ray.along, ray.c * t);
-  const double twice = 2 * geometry::value_at(n, v), k = geometry::curvature(prism.space);
+  Place place = advanced(prism.space, ray, ray.c * t);
+  // Back onto the wall's line, the direction to the other side: neither the distance from the wall nor ⟨P, P⟩ drifts.
+  const geometry::Ambient normal{geometry::curvature(prism.space) * n.w, n.x, n.y};
+  place.at = place.at - geometry::value_at(n, place.at) * normal;
+  place.along = place.along - (2 * geometry::value_at(n, place.along)) * normal;
   Ray out = ray;
-  // Back onto the wall's line, then onto the surface: neither the distance from the wall nor ⟨P, P⟩ drifts.
-  out.at = geometry::foot(prism.space, n, at.floor);
-  out.along = geometry::normalised_tangent(prism.space, out.at, {v.w - twice * k * n.w, v.x - twice * n.x, v.y - twice * n.y});
-  out.z = at.z;
+  restore(prism.space, place, out);
+  out.z = ray.z + ray.m * t;
   out.t_min = 0;
   out.leaves_wall = wall;
   return out;
@@ -58,8 +104,7 @@ Ray reflected_in_wall(const Prism& prism, const Ray& ray, double t, int wall) {
 
 Ray reflected_in_plane(const Prism& prism, const Ray& ray, double t, int surface) {
   Ray out = ray;
-  out.at = geometry::normalised_point(prism.space, geometry::point_along(prism.space, ray.at, ray.along, ray.c * t));
-  out.along = geometry::normalised_tangent(prism.space, out.at, geometry::direction_along(prism.space, ray.at, ray.along, ray.c * t));
+  restore(prism.space, advanced(prism.space, ray, ray.c * t), out);
   out.z = surface == kCeiling ? prism.height : 0;
   out.m = -ray.m;
   out.t_min = 0;

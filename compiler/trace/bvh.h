@@ -1,4 +1,39 @@
 #pragma once
+// A bounding volume hierarchy for curved rays: rays that are geodesics of S²×R, E²×R or H²×R, spirals in every chart of the space.
+//
+// The paper (Zheng, Zhang, Zhang 2023, §8) leaves open which spatial structure serves non-Euclidean ray tracing. The answer built here: an
+// ordinary BVH, in coordinates where half of the ray is straight, with the other half inverted instead of followed.
+//
+// 1. Boxes. The floor is seen in a gnomonic (Klein) chart, (ξ, η) = (x, y)/w around the chart's own centre; the box is an interval of ξ, of η
+//    and of the height z. Floor geodesics are straight lines there, so the footprint of a geodesic triangle is a straight triangle and lies in
+//    the box of its corners; its height is a convex combination of the corners' heights. Hence boxes are built like Euclidean ones, without
+//    any bound on curvature, and an SAH builder needs no change.
+// 2. Node test. Let Q be the foot of the perpendicular from the chart's centre to the ray's floor geodesic, T the direction there, s the arc from
+//    Q and t = tanκ s (tan | id | tanh). The chart point is Q_xy/Q_w + t·T_xy/Q_w: affine in t, so two slabs are those of a straight ray with
+//    the parameter t. The third, z, is linear in s, not in t; instead of computing z at both ends of the interval one computes t at both
+//    planes: t_z = tanκ(s₀ + (z − z₀)·c/m). The three slabs are independent, and tanκ is an odd polynomial that increases on all of ℝ
+//    (checked when the chart is made), so nothing is clamped. Cost over a straight ray: 8 to 12 operations for 8 boxes.
+//    Conservative, proof: planes are rounded outwards; the ray's constants are computed in double and rounded once, so a t of the two chart
+//    slabs is wrong by less than a shift of the plane by 8 ulp of the chart's extent, and 16 are added; for |s₀ + …| ≤ radius the polynomial
+//    is within `poly_error`, which is added; beyond it is larger (smaller) than any t in the chart because it increases.
+// 3. Leaves: eight triangles in float, by chart_ray.h and judge-inl.h: the ray's line cuts two edges; t there, against t of the ray at the edge's
+//    height, gives a sign each. With bounds of the rounding and of the curve's bend a triangle is surely missed, surely met once, or a case
+//    for double. The last word is always `exact::meet` in double on the room's own coordinates, so the tree finds exactly what trying all
+//    triangles finds (tests: 0 of 1,000,000 rays differ), and is watertight because `meet` is.
+// 4. Charts. S² shows less than a half in one gnomonic chart, and far charts of H² lose digits: chart.h makes one chart for each cluster of
+//    triangles (rooms with three and more corners: one; lune and hemisphere: two and more; E²: one). A ray walks through each chart's tree.
+// 5. Many rays at once: set up eight at a time, walked two at a time in turn, resolved four at a time in double (AVX2): about 1.4 times the
+//    rate of single rays.
+//
+// Figures (torus knot in right-angled rooms of equal size, 480,000 camera rays, per ray):
+//                 12,480 triangles                 1,000,000 triangles
+//         nodes   blocks   put to double   hits    nodes   blocks   put to double   hits
+//   S²    5.83    1.97     0.68            0.64    8.31    1.78     0.66            0.64
+//   E²    5.79    1.93     0.63            0.62    8.16    1.72     0.64            0.63
+//   H²    5.62    1.90     0.64            0.61    7.98    1.67     0.63            0.61
+// so a curved ray visits as many nodes as a straight one: the structure costs nothing, only the arithmetic of a node does. Memory 92 to 95
+// bytes a triangle (nodes 224 bytes for 8 children, blocks 416 bytes for 8 triangles, corners and indices in double for the last word); a
+// million triangles are built in 0.8 s of CPU time.
 #include <memory>
 #include <vector>
 
@@ -27,6 +62,8 @@ class Bvh {
   /// The first triangle met with t_min < t < t_max. S²: t_max must not exceed half a turn, π/c.
   [[nodiscard]] BvhHit closest(const Ray& ray, double t_max) const;
   [[nodiscard]] bool occluded(const Ray& ray, double t_max) const;
+  /// closest() for many rays at once, faster: hits[i].t says where the search for ray i ends.
+  void closest_many(const Ray* rays, BvhHit* hits, std::size_t count) const;
   /// closest() that counts what it visits.
   [[nodiscard]] BvhHit closest_counted(const Ray& ray, double t_max, BvhCounts& counts) const;
 

@@ -1,8 +1,8 @@
 // A ray through the tree: the SIMD kernels, compiled once per instruction set by Highway and chosen at run time for a whole call.
-// Float decides only what surely misses; every triangle left is put to `intersect` in double (see bvh.h).
+// Float decides only what surely misses and what is surely met once; everything else is put to `intersect` in double (see bvh.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "compiler/trace/bvh_traverse.cpp"
-// No gain was measured from AVX-512 (performance study: AVX2 and AVX-512 builds are equal within noise).
+// AVX-512 was measured to gain nothing here (nor in the performance study: a node has eight children).
 #define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -11,203 +11,15 @@
 #include <cmath>
 #include <cstring>
 
-#include "compiler/trace/bvh.h"
 #include "compiler/trace/chart_ray.h"
+#include "compiler/trace/judge-inl.h"
 #include "compiler/trace/meet.h"
+#include "compiler/trace/resolve-inl.h"
+#include "compiler/trace/set_up-inl.h"
 #include "compiler/trace/walk.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace orbc::trace::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using geometry::Space;
-using D = hn::CappedTag<float, 8>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-
-/// Odd polynomial, increasing on all of ℝ: no clamp is needed however far a box lies.
-template <int kTerms>
-HWY_INLINE V odd_polynomial(const Chart& chart, V a, V shift) {
-  const D d;
-  if constexpr (kTerms == 1) return hn::Add(a, shift);
-  const auto c = [&](int k) { return hn::Set(d, chart.poly[k]); };
-  const V y = hn::Mul(a, a);  // Estrin's order: the chain of dependent steps is what a node waits for
-  if constexpr (kTerms == 2) return hn::MulAdd(a, hn::MulAdd(y, c(1), c(0)), shift);
-  const V yy = hn::Mul(y, y), low = hn::MulAdd(y, c(1), c(0));
-  if constexpr (kTerms == 3) return hn::MulAdd(a, hn::MulAdd(yy, c(2), low), shift);
-  const V high = hn::MulAdd(y, c(3), c(2));
-  if constexpr (kTerms == 4) return hn::MulAdd(a, hn::MulAdd(yy, high, low), shift);
-  if constexpr (kTerms == 5) return hn::MulAdd(a, hn::MulAdd(yy, hn::MulAdd(yy, c(4), high), low), shift);
-  const V top = hn::MulAdd(yy, c(6), hn::MulAdd(y, c(5), c(4)));
-  return hn::MulAdd(a, hn::MulAdd(yy, hn::MulAdd(yy, top, high), low), shift);
-}
-
-/// Which of a node's boxes the ray may touch between `start` and `end`, and where it enters them.
-template <int kTerms>
-HWY_INLINE std::uint32_t touched(const Node8& node, const Chart& chart, const ChartRay& ray, float end, float* HWY_RESTRICT enters) {
-  const D d;
-  std::uint32_t bits = 0;
-  const V error = hn::Set(d, chart.poly_error), minus_error = hn::Set(d, -chart.poly_error);
-  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
-    V near = hn::Set(d, ray.start), far = hn::Set(d, end);
-    for (int a = 0; a < 2; ++a) {
-      const V scale = hn::Set(d, ray.scale[a]);
-      near = hn::Max(near, hn::MulSub(hn::Load(d, node.bounds[a][ray.near[a]] + i), scale, hn::Set(d, ray.near_offset[a])));
-      far = hn::Min(far, hn::MulSub(hn::Load(d, node.bounds[a][1 - ray.near[a]] + i), scale, hn::Set(d, ray.far_offset[a])));
-    }
-    const V slope = hn::Set(d, ray.slope);
-    const V low = hn::MulSub(hn::Load(d, node.bounds[2][ray.near[2]] + i), slope, hn::Set(d, ray.near_height));
-    const V high = hn::MulSub(hn::Load(d, node.bounds[2][1 - ray.near[2]] + i), slope, hn::Set(d, ray.far_height));
-    near = hn::Max(near, odd_polynomial<kTerms>(chart, low, minus_error));
-    far = hn::Min(far, odd_polynomial<kTerms>(chart, high, error));
-    hn::Store(near, d, enters + i);
-    std::uint8_t mask[8] = {};
-    hn::StoreMaskBits(d, hn::Le(near, far), mask);
-    bits |= static_cast<std::uint32_t>(mask[0]) << i;
-  }
-  return bits;
-}
-
-/// A corner of eight triangles over the ray.
-struct Corner {
-  V h, t, z_by_w, by_w;
-};
-
-struct Cut {
-  V t, a, w, t_error, a_error;      ///< t, argument of tanκ, 1/w of an edge's crossing, and bounds of the errors of the first two
-};
-
-HWY_INLINE Corner pick(M first, const Corner& a, const Corner& b) {
-  return {hn::IfThenElse(first, a.h, b.h), hn::IfThenElse(first, a.t, b.t), hn::IfThenElse(first, a.z_by_w, b.z_by_w),
-          hn::IfThenElse(first, a.by_w, b.by_w)};
-}
-
-/// 1/x to about 2 ulp: a division would be waited for.
-HWY_INLINE V by(V x) {
-  const D d;
-  const V r = hn::ApproximateReciprocal(x);
-  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
-}
-
-/// The Padé approximant [5/4] of tanκ, as in chart.h.
-HWY_INLINE V pade(V kappa, V a) {
-  const D d;
-  const V y = hn::Mul(a, a);
-  const V over = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -105.0f), kappa, y), hn::Set(d, 945.0f));
-  const V under = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -420.0f), kappa, hn::Mul(hn::Set(d, 15.0f), y)), hn::Set(d, 945.0f));
-  return hn::Mul(hn::Mul(a, over), by(under));
-}
-
-struct LeafConstants {
-  float height_bound, largest_w;
-};
-
-template <Space kSpace>
-HWY_INLINE Cut cut_edge(const ChartRay& ray, const LeafConstants& leaf, const Corner& i, const Corner& j) {
-  const D d;
-  const V hi = hn::Abs(i.h), hj = hn::Abs(j.h);
-  const V by_sum = by(hn::Add(hi, hj));
-  const V weight_error = hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum);
-  Cut cut;
-  cut.t = hn::Mul(by_sum, hn::MulAdd(hj, i.t, hn::Mul(hi, j.t)));
-  cut.t_error = hn::MulAdd(weight_error, hn::Abs(hn::Sub(i.t, j.t)), hn::Set(d, ray.t_error));
-  V z = hn::MulAdd(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
-  V dz = hn::Abs(hn::Sub(i.z_by_w, j.z_by_w));
-  if constexpr (kSpace != Space::euclidean) {
-    const V w = hn::MulAdd(hj, i.by_w, hn::Mul(hi, j.by_w));
-    z = hn::Mul(z, by(w));
-    cut.w = hn::Mul(w, by_sum);
-    dz = hn::Mul(hn::Set(d, leaf.largest_w), hn::MulAdd(hn::Set(d, leaf.height_bound), hn::Abs(hn::Sub(i.by_w, j.by_w)), dz));
-  } else {
-    z = hn::Mul(z, by_sum);
-    cut.w = by_sum;
-  }
-  cut.a = hn::MulSub(z, hn::Set(d, ray.slope), hn::Set(d, ray.height));
-  cut.a_error = hn::MulAdd(hn::Mul(weight_error, dz), hn::Set(d, ray.steepness), hn::Set(d, ray.slope_error));
-  return cut;
-}
-
-/// What the float test of a block found out.
-struct alignas(32) Verdict {
-  float f_one[8], f_two[8];         ///< t − tanκ(a) at the two crossings
-  float farther[8];                 ///< the larger t of the two, a little more
-  std::uint32_t candidates = 0;     ///< bit per lane: the triangle may be met
-  std::uint32_t sure = 0;           ///< of these: it is met exactly once, between the crossings
-};
-
-HWY_INLINE std::uint32_t bits_of(M mask) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(D(), mask, bits);
-  return bits[0];
-}
-
-/// Which of eight triangles the ray may meet between `start` and `end`.
-/// Conservative: with f = t − tanκ(a) at the two crossings, a triangle is dropped only when f has surely the same sign at both and neither is
-/// nearer to 0 than the curve in between can bend, or both crossings surely lie beyond the chart's heights, or beside the ray's ends. It is
-/// sure when the signs differ by so much that no rounding and no bend (f′ = 0 needs |f₁ − f₂| ≤ max|f″| = 8 bends) matters.
-template <Space kSpace>
-HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, const LeafConstants& leaf, Verdict& verdict) {
-  const D d;
-  verdict.candidates = verdict.sure = 0;
-  for (std::size_t lane = 0; lane < 8; lane += hn::Lanes(d)) {
-    Corner corner[3];
-    for (int i = 0; i < 3; ++i) {
-      const V x = hn::Load(d, block.x[i] + lane), y = hn::Load(d, block.y[i] + lane);
-      corner[i].t = hn::MulAdd(x, hn::Set(d, ray.t_x), hn::Mul(y, hn::Set(d, ray.t_y)));
-      corner[i].h = hn::MulAdd(x, hn::Set(d, ray.h_x), hn::MulSub(y, hn::Set(d, ray.h_y), hn::Set(d, ray.h_0)));
-      corner[i].z_by_w = hn::Load(d, block.z_by_w[i] + lane);
-      corner[i].by_w = hn::Load(d, block.by_w[i] + lane);
-    }
-    const V h_error = hn::Set(d, ray.h_error), zero = hn::Zero(d);
-    const V lowest = hn::Min(corner[0].h, hn::Min(corner[1].h, corner[2].h)), highest = hn::Max(corner[0].h, hn::Max(corner[1].h, corner[2].h));
-    const M crosses = hn::And(hn::Le(lowest, h_error), hn::Ge(highest, hn::Neg(h_error)));
-    if (hn::AllFalse(d, crosses)) continue;
-    const M left0 = hn::Ge(corner[0].h, zero), left1 = hn::Ge(corner[1].h, zero), left2 = hn::Ge(corner[2].h, zero);
-    const V nearest = hn::Min(hn::Abs(corner[0].h), hn::Min(hn::Abs(corner[1].h), hn::Abs(corner[2].h)));
-    const M unsure = hn::Le(nearest, h_error);  // a corner on the ray's line: which edges are cut is not known
-    const Cut one = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left1), corner[0], corner[2]), corner[1]);
-    const Cut two = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left2), corner[0], corner[1]), corner[2]);
-    const V farther = hn::Max(hn::Add(one.t, one.t_error), hn::Add(two.t, two.t_error));
-    const M late = hn::Gt(hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error)), hn::Set(d, ray.reach));
-    M missed = hn::Or(late, hn::Lt(farther, hn::Set(d, ray.start)));
-    V f1, f2, e1, e2;
-    if constexpr (kSpace == Space::euclidean) {
-      f1 = hn::Sub(one.t, one.a);
-      f2 = hn::Sub(two.t, two.a);
-      e1 = hn::Add(one.t_error, one.a_error);
-      e2 = hn::Add(two.t_error, two.a_error);
-      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
-      missed = hn::Or(missed, hn::Or(over, under));
-    } else {
-      constexpr float kCurvature = kSpace == Space::spherical ? 1.0f : -1.0f;
-      const V reach = hn::Set(d, chart.reach), minus_reach = hn::Set(d, -chart.reach), kappa = hn::Set(d, kCurvature);
-      const M above = hn::And(hn::Gt(hn::Sub(one.a, one.a_error), reach), hn::Gt(hn::Sub(two.a, two.a_error), reach));
-      const M below = hn::And(hn::Lt(hn::Add(one.a, one.a_error), minus_reach), hn::Lt(hn::Add(two.a, two.a_error), minus_reach));
-      const V a1 = hn::Min(reach, hn::Max(minus_reach, one.a)), a2 = hn::Min(reach, hn::Max(minus_reach, two.a));
-      f1 = hn::Sub(one.t, pade(kappa, a1));
-      f2 = hn::Sub(two.t, pade(kappa, a2));
-      const V steepest = hn::Set(d, chart.steepest), leaf_error = hn::Set(d, chart.leaf_error);
-      // Bound of the curve's deviation from its chord: |f″|/8 over the segment, f = t − tanκ(a(u)), a projective in u.
-      const V da = hn::Abs(hn::Sub(one.a, two.a)), dw = hn::Abs(hn::Sub(one.w, two.w));
-      V bend = hn::Mul(da, hn::MulAdd(da, hn::Set(d, chart.bend_of_tan), hn::Mul(dw, hn::Set(d, chart.bend_of_height))));
-      const M clamped = hn::Or(hn::Ne(a1, one.a), hn::Ne(a2, two.a));
-      bend = hn::Add(bend, hn::IfThenElseZero(clamped, hn::Abs(hn::Sub(one.t, two.t))));
-      e1 = hn::Add(bend, hn::Add(one.t_error, hn::MulAdd(steepest, one.a_error, leaf_error)));
-      e2 = hn::Add(bend, hn::Add(two.t_error, hn::MulAdd(steepest, two.a_error, leaf_error)));
-      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
-      missed = hn::Or(hn::Or(missed, hn::Or(above, below)), hn::Or(over, under));
-      const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
-      const M sure = hn::AndNot(hn::Or(unsure, clamped), hn::And(hn::Gt(least, hn::Mul(hn::Set(d, 3.0f), bend)), hn::Lt(hn::Mul(f1, f2), zero)));
-      verdict.sure |= bits_of(sure) << lane;
-      hn::Store(f1, d, verdict.f_one + lane);
-      hn::Store(f2, d, verdict.f_two + lane);
-    }
-    hn::Store(farther, d, verdict.farther + lane);
-    const std::uint32_t bits = bits_of(hn::And(crosses, hn::Or(unsure, hn::Not(missed))));
-    if constexpr (kSpace == Space::euclidean) verdict.sure |= bits_of(hn::Not(unsure)) << lane;
-    verdict.candidates |= bits << lane;
-  }
-}
 
 /// t of the point b of a triangle of the block: where the search may now end.
 HWY_INLINE float t_of(const Block8& block, int lane, const ChartRay& ray, const BvhHit& hit) {
@@ -238,109 +50,218 @@ HWY_INLINE void sort(Entry& a, Entry& b) {  // the nearer one to b: on top
 
 HWY_INLINE int lowest_bit(std::uint32_t bits) { return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)); }
 
-template <Space kSpace, int kTerms, bool kAny, bool kCount>
-bool walk(const Walk& walk_of) {
-  const Chart& chart = *walk_of.chart;
-  ChartRay ray = chart_ray<kSpace>(chart, *walk_of.ray, walk_of.height_bound, walk_of.best->t);
-  if (ray.misses) return false;
-  RayPlane plane;
-  bool planned = false;
-  const LeafConstants leaf{static_cast<float>(walk_of.height_bound), chart.largest_w};
-  Entry stack[8 * kDeepest];
-  Entry* top = stack;
-  bool found = false;
+/// The next node or block, and the others on the stack.
+struct Way {
   std::uint32_t child = 0;
-  Verdict verdict;
-  for (;;) {
-    while (!(child & kBlock)) {
-      if constexpr (kCount) ++walk_of.counts->nodes;
-      const Node8& node = chart.nodes[child];
-      alignas(32) float enters[8];
-      std::uint32_t bits = touched<kTerms>(node, chart, ray, ray.reach, enters);
-      if (bits == 0) goto pop;
-      const int first = lowest_bit(bits);
-      bits &= bits - 1;
-      if (bits == 0) {
-        child = node.child[first];
-        continue;
-      }
-      const auto entry = [&](int lane) { return static_cast<Entry>(order_of(enters[lane])) << 32 | node.child[lane]; };
-      Entry a = entry(first), b = entry(lowest_bit(bits));
-      bits &= bits - 1;
-      sort(a, b);
-      if (bits == 0) {
-        *top++ = a;
-        child = static_cast<std::uint32_t>(b);
-        continue;
-      }
-      Entry* const base = top;
-      *top++ = a;
-      *top++ = b;
-      do {  // insertion: rarely more than one or two are left
-        Entry other = entry(lowest_bit(bits));
-        bits &= bits - 1;
-        Entry* at = top++;
-        for (; at > base && at[-1] < other; --at) *at = at[-1];
-        *at = other;
-      } while (bits);
-      child = static_cast<std::uint32_t>(*--top);
-    }
-    {
-      const Block8& block = chart.blocks[child & ~kBlock];
-      if constexpr (kCount) ++walk_of.counts->blocks;
-      judge<kSpace>(block, chart, ray, leaf, verdict);
-      for (std::uint32_t bits = verdict.candidates; bits; bits &= bits - 1) {
-        const int lane = lowest_bit(bits);
-        const std::uint32_t triangle = block.triangle[lane];
-        if (triangle == kNone) continue;
-        if constexpr (kCount) ++walk_of.counts->candidates;
-        const auto& v = walk_of.soup->triangles[triangle];
-        const Vertex* vertices = walk_of.soup->vertices.data();
-        if (!planned) plane = plane_of(kSpace, *walk_of.ray), planned = true;
-        const Vertex* const corners[3] = {vertices + v[0], vertices + v[1], vertices + v[2]};
-        const bool sure = verdict.sure >> lane & 1;
-        TriangleHit hit;
-        if (kSpace != Space::euclidean && sure) {
-          const double f = verdict.f_one[lane];
-          hit = exact::meet_once<kSpace>(plane, corners, walk_of.best->t, f / (f - verdict.f_two[lane]));
-        } else {
-          hit = exact::meet<kSpace>(plane, corners, walk_of.best->t);
-        }
-        if (!hit.found) continue;
-        found = true;
-        *walk_of.best = {triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
-        if constexpr (kAny) return true;
-        // From the float test where possible: the walk goes on without waiting for the exact hit.
-        ray.reach = std::min(ray.reach, sure ? verdict.farther[lane] : t_of(block, lane, ray, *walk_of.best));
-      }
-    }
-  pop:
-    for (;;) {
-      if (top == stack) return found;
-      const Entry entry = *--top;
-      if (static_cast<std::uint32_t>(entry >> 32) > order_of(ray.reach)) continue;
-      child = static_cast<std::uint32_t>(entry);
-      break;
-    }
+  Entry* top = nullptr;
+};
+
+/// The walk of one ray through one tree, piece by piece, so that several can take turns.
+template <Space kSpace, int kTerms, bool kAny, bool kCount>
+struct Walker {
+  ChartRay ray;
+  Pending pending;                  ///< surely met, in double only when the walk is over or another triangle comes too near
+  RayPlane plane;
+  const Ray* source;
+  BvhHit* best;
+  bool planned, exact, found;
+  Entry stack[8 * kDeepest];
+
+  HWY_INLINE Way begin(const Ray& from, BvhHit& hit) {
+    source = &from;
+    best = &hit;
+    planned = exact = found = false;
+    pending.triangle = kNone;
+    return {0, stack};
   }
+
+  HWY_INLINE bool pop(Way& way) const {
+    const std::uint32_t end = order_of(ray.reach);
+    while (way.top != stack) {
+      const Entry entry = *--way.top;
+      if (static_cast<std::uint32_t>(entry >> 32) > end) continue;
+      way.child = static_cast<std::uint32_t>(entry);
+      return true;
+    }
+    return false;
+  }
+
+  /// Goes on to the nearest child, the others to the stack, the nearer on top. False: nothing is touched.
+  HWY_INLINE bool visit_node(const Walk& walk, Way& way) {
+    if constexpr (kCount) ++walk.counts->nodes;
+    const Node8& node = walk.chart->nodes[way.child];
+    alignas(32) float enters[8];
+    std::uint32_t bits = touched<kTerms>(node, *walk.chart, ray, ray.reach, enters);
+    if (bits == 0) return false;
+    const int first = lowest_bit(bits);
+    bits &= bits - 1;
+    way.child = node.child[first];
+    if (bits == 0) return true;
+    const auto entry = [&](int lane) { return static_cast<Entry>(order_of(enters[lane])) << 32 | node.child[lane]; };
+    Entry a = entry(first), b = entry(lowest_bit(bits));
+    bits &= bits - 1;
+    sort(a, b);
+    way.child = static_cast<std::uint32_t>(b);
+    *way.top++ = a;
+    if (bits == 0) return true;
+    Entry* const base = way.top - 1;
+    *way.top++ = b;
+    do {  // insertion: rarely more than one or two are left
+      Entry other = entry(lowest_bit(bits));
+      bits &= bits - 1;
+      Entry* at = way.top++;
+      for (; at > base && at[-1] < other; --at) *at = at[-1];
+      *at = other;
+    } while (bits);
+    way.child = static_cast<std::uint32_t>(*--way.top);
+    return true;
+  }
+
+  /// In double. Makes: whether it is met before the best so far.
+  HWY_NOINLINE bool meet(const Walk& walk, std::uint32_t triangle, bool sure, double guess) {
+    const auto& v = walk.soup->triangles[triangle];
+    const Vertex* vertices = walk.soup->vertices.data();
+    if (!planned) plane = plane_of(kSpace, *source), planned = true;
+    const Vertex* const corners[3] = {vertices + v[0], vertices + v[1], vertices + v[2]};
+    const TriangleHit hit = sure && kSpace != Space::euclidean ? trace::exact::meet_once<kSpace>(plane, corners, best->t, guess)
+                                                               : trace::exact::meet<kSpace>(plane, corners, best->t);
+    if (!hit.found) return false;
+    *best = {triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
+    return found = true;
+  }
+
+  HWY_INLINE void resolve(const Walk& walk) {
+    if (pending.triangle == kNone) return;
+    meet(walk, pending.triangle, true, pending.guess);
+    pending.triangle = kNone;
+  }
+
+  /// False: any hit was wanted and is found.
+  HWY_INLINE bool visit_block(const Walk& walk, const LeafConstants& leaf, std::uint32_t child) {
+    const Block8& block = walk.chart->blocks[child & ~kBlock];
+    if constexpr (kCount) ++walk.counts->blocks;
+    Verdict verdict;
+    judge<kSpace>(block, *walk.chart, ray, leaf, verdict);
+    for (std::uint32_t bits = verdict.candidates; bits; bits &= bits - 1) {
+      const int lane = lowest_bit(bits);
+      const std::uint32_t triangle = block.triangle[lane];
+      if (triangle == kNone) continue;
+      if constexpr (kCount) ++walk.counts->candidates;
+      const bool sure = verdict.sure >> lane & 1;
+      const float near = verdict.nearer[lane], far = verdict.farther[lane], f = verdict.f_one[lane];
+      const float guess = f / (f - verdict.f_two[lane]);
+      if (sure && !exact && near > ray.surely_after && far < ray.surely_before) {
+        if constexpr (kAny) {
+          found = true;
+          return false;
+        }
+        if (pending.triangle != kNone && near > pending.farther) continue;
+        if (pending.triangle == kNone || far < pending.nearer) {
+          pending = {triangle, guess, near, far};
+          ray.reach = std::min(ray.reach, far);
+          continue;
+        }
+      }
+      // Two triangles too near to each other, or an end of the ray too near: exact from here on.
+      exact = true;
+      resolve(walk);
+      if (!meet(walk, triangle, sure, guess)) continue;
+      if constexpr (kAny) return false;
+      ray.reach = std::min(ray.reach, sure ? far : t_of(block, lane, ray, *best));
+    }
+    return true;
+  }
+};
+
+template <Space kSpace, int kTerms, bool kAny, bool kCount>
+bool walk_one(const Walk& walk) {
+  const LeafConstants leaf{static_cast<float>(walk.height_bound), walk.chart->largest_w};
+  Walker<kSpace, kTerms, kAny, kCount> walker;
+  walker.ray = chart_ray<kSpace>(*walk.chart, *walk.ray, walk.height_bound, walk.best->t);
+  if (walker.ray.misses) return false;
+  Way way = walker.begin(*walk.ray, *walk.best);
+  do {
+    bool touches = true;
+    while (touches && !(way.child & kBlock)) touches = walker.visit_node(walk, way);
+    if (touches && !walker.visit_block(walk, leaf, way.child)) return true;
+  } while (walker.pop(way));
+  walker.resolve(walk);
+  return walker.found;
+}
+
+/// Many rays: set up and resolved eight and four at a time; a few walk in turn, so that one's loads and long chains of arithmetic are waited
+/// for while the others compute.
+template <Space kSpace, int kTerms, bool kAny, bool kCount>
+bool walk_many(const Walk& walk) {
+  const LeafConstants leaf{static_cast<float>(walk.height_bound), walk.chart->largest_w};
+  constexpr int kTurns = 2;  // more gained nothing: their states fall out of the registers and the first-level cache
+  constexpr std::size_t kBatch = 32;
+  struct Turn {
+    Walker<kSpace, kTerms, kAny, kCount> walker;
+    Way way;
+    std::size_t index;
+    bool active = false;
+  };
+  Turn turns[kTurns];
+  ChartRay rays[kBatch];
+  Pending pending[kBatch];
+  for (std::size_t first = 0; first < walk.count; first += kBatch) {
+    const std::size_t count = std::min(kBatch, walk.count - first);
+    for (std::size_t i = 0; i < count; i += 8) set_up<kSpace>(walk, first + i, std::min<std::size_t>(8, count - i), rays + i);
+    std::size_t next = 0;
+    const auto refill = [&](Turn& turn) {
+      while (next < count) {
+        const std::size_t i = next++;
+        pending[i].triangle = kNone;
+        if (rays[i].misses) continue;
+        turn.index = i;
+        turn.walker.ray = rays[i];
+        turn.way = turn.walker.begin(walk.ray[first + i], walk.best[first + i]);
+        return true;
+      }
+      return false;
+    };
+    int active = 0;
+    for (Turn& turn : turns) active += turn.active = refill(turn);
+    while (active > 0)
+      for (Turn& turn : turns) {
+        if (!turn.active) continue;
+        bool more = true;
+        if (turn.way.child & kBlock) {
+          more = turn.walker.visit_block(walk, leaf, turn.way.child) && turn.walker.pop(turn.way);
+        } else if (!turn.walker.visit_node(walk, turn.way)) {
+          more = turn.walker.pop(turn.way);
+        }
+        if (more) continue;
+        pending[turn.index] = turn.walker.pending;
+        active -= !(turn.active = refill(turn));
+      }
+    resolve_many<kSpace>(walk, first, count, pending);
+  }
+  return true;
+}
+
+template <Space kSpace, int kTerms, bool kAny, bool kCount>
+bool walk_with(const Walk& walk) {
+  return walk.count == 1 ? walk_one<kSpace, kTerms, kAny, kCount>(walk) : walk_many<kSpace, kTerms, kAny, kCount>(walk);
 }
 
 template <bool kAny, bool kCount>
-bool walk_chart(Space space, const Walk& walk_of) {
-  const int terms = walk_of.chart->terms;
-  if (space == Space::euclidean) return walk<Space::euclidean, 1, kAny, kCount>(walk_of);
-  if (space == Space::spherical)
-    return terms == 2   ? walk<Space::spherical, 2, kAny, kCount>(walk_of)
-           : terms == 4 ? walk<Space::spherical, 4, kAny, kCount>(walk_of)
-                        : walk<Space::spherical, 7, kAny, kCount>(walk_of);
-  return terms == 3   ? walk<Space::hyperbolic, 3, kAny, kCount>(walk_of)
-         : terms == 5 ? walk<Space::hyperbolic, 5, kAny, kCount>(walk_of)
-                      : walk<Space::hyperbolic, 7, kAny, kCount>(walk_of);
+bool walk_chart(const Walk& walk) {
+  const int terms = walk.chart->terms;
+  if (walk.space == Space::euclidean) return walk_with<Space::euclidean, 1, kAny, kCount>(walk);
+  if (walk.space == Space::spherical)
+    return terms == 2   ? walk_with<Space::spherical, 2, kAny, kCount>(walk)
+           : terms == 4 ? walk_with<Space::spherical, 4, kAny, kCount>(walk)
+                        : walk_with<Space::spherical, 7, kAny, kCount>(walk);
+  return terms == 3   ? walk_with<Space::hyperbolic, 3, kAny, kCount>(walk)
+         : terms == 5 ? walk_with<Space::hyperbolic, 5, kAny, kCount>(walk)
+                      : walk_with<Space::hyperbolic, 7, kAny, kCount>(walk);
 }
 
-bool walk_closest(Space space, const Walk& walk_of) { return walk_chart<false, false>(space, walk_of); }
-bool walk_any(Space space, const Walk& walk_of) { return walk_chart<true, false>(space, walk_of); }
-bool walk_counted(Space space, const Walk& walk_of) { return walk_chart<false, true>(space, walk_of); }
+bool walk_closest(const Walk& walk) { return walk_chart<false, false>(walk); }
+bool walk_any(const Walk& walk) { return walk_chart<true, false>(walk); }
+bool walk_counted(const Walk& walk) { return walk_chart<false, true>(walk); }
 
 }  // namespace orbc::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -355,15 +276,20 @@ HWY_EXPORT(walk_counted);
 BvhHit Bvh::closest(const Ray& ray, double t_max) const {
   BvhHit best;
   best.t = t_max;
-  for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_closest)(space_, {&soup_, &chart, &ray, height_, &best, nullptr});
+  for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_closest)({space_, &soup_, &chart, &ray, height_, &best, nullptr, 1});
   try_large(ray, best);
   return best;
+}
+
+void Bvh::closest_many(const Ray* rays, BvhHit* hits, std::size_t count) const {
+  for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_closest)({space_, &soup_, &chart, rays, height_, hits, nullptr, count});
+  for (std::size_t i = 0; i < count; ++i) try_large(rays[i], hits[i]);
 }
 
 BvhHit Bvh::closest_counted(const Ray& ray, double t_max, BvhCounts& counts) const {
   BvhHit best;
   best.t = t_max;
-  for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_counted)(space_, {&soup_, &chart, &ray, height_, &best, &counts});
+  for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_counted)({space_, &soup_, &chart, &ray, height_, &best, &counts, 1});
   try_large(ray, best);
   return best;
 }
@@ -372,7 +298,7 @@ bool Bvh::occluded(const Ray& ray, double t_max) const {
   BvhHit best;
   best.t = t_max;
   for (const Chart& chart : charts_)
-    if (HWY_DYNAMIC_DISPATCH(walk_any)(space_, {&soup_, &chart, &ray, height_, &best, nullptr})) return true;
+    if (HWY_DYNAMIC_DISPATCH(walk_any)({space_, &soup_, &chart, &ray, height_, &best, nullptr, 1})) return true;
   try_large(ray, best);
   return best.triangle != kNone;
 }

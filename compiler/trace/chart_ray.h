@@ -22,6 +22,7 @@ struct ChartRay {
   float steepness = 0;              ///< |slope|
   float start = 0;                  ///< t where the ray begins (a little before)
   float reach = kNever;             ///< t where it ends (a little after)
+  float surely_after = 0, surely_before = 0;  ///< what lies between is met, whatever the rounding
 
   float t_x = 0, t_y = 0;           ///< t of a chart point = t_x·x + t_y·y
   float h_x = 0, h_y = 0, h_0 = 0;  ///< its distance from the line = h_x·x + h_y·y − h_0
@@ -39,14 +40,19 @@ inline constexpr double kSteep = 1e9;     // |c/m| beyond this is a horizontal r
 inline constexpr double kFlat = 1e15;     // the same for the slabs of the chart
 }  // namespace chart_ray_detail
 
-/// t of the path length `length` on the ray, a little more, or ±kNever when that lies beyond the chart.
+/// The ends of the ray in t, once s0 and start are known.
 template <geometry::Space kSpace>
-[[nodiscard]] inline float t_after(const Chart& chart, const ChartRay& ray, double length) {
-  const double s = ray.s0 + ray.c * length;
-  if (!(s < chart.radius)) return kNever;
-  if (s < -chart.radius * 1.001) return -kNever;
-  const double t = geometry::tan_k(kSpace, s);
-  return static_cast<float>(t + 32 * chart_ray_detail::kUlp * (std::fabs(t) + chart.extent));
+inline void set_ends(const Chart& chart, const Ray& ray, double t_max, ChartRay& out) {
+  using chart_ray_detail::kUlp;
+  const float pad = static_cast<float>(64 * kUlp * chart.extent);
+  out.surely_after = ray.t_min > 1e-7 ? kNever : out.start > -kNever ? out.start + 4 * pad + 64 * static_cast<float>(kUlp) * std::fabs(out.start) : -kNever;
+  out.reach = out.surely_before = kNever;
+  if (t_max == kEndless) return;
+  const double s = out.s0 + ray.c * t_max;
+  if (!(s < chart.radius)) return;
+  const double t = geometry::tan_k(kSpace, std::max(s, -chart.radius));
+  out.reach = static_cast<float>(t + 32 * kUlp * (std::fabs(t) + chart.extent));
+  out.surely_before = static_cast<float>(t - 32 * kUlp * (std::fabs(t) + chart.extent));
 }
 
 /// In: heights of the soup are at most `height_bound`; the ray ends at path length t_max.
@@ -96,7 +102,7 @@ template <geometry::Space kSpace>
     return out;
   }
   out.start = out.s0 < -chart.radius ? -kNever : static_cast<float>(start - 32 * kUlp * (chart.tangent + std::fabs(start)));
-  out.reach = t_after<kSpace>(chart, out, t_max);
+  set_ends<kSpace>(chart, ray, t_max, out);
   // The two chart axes and the height alike, in float: the paddings cover it.
   const float extent = chart.extent, ulp = static_cast<float>(kUlp);
   const float num[3] = {static_cast<float>(r), static_cast<float>(r), static_cast<float>(ray.c)};

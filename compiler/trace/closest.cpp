@@ -40,16 +40,26 @@ double longest_in_room(const TraceScene& scene, const Ray& ray) {
 Hit closest(const TraceScene& scene, const Ray& ray) {
   if (scene.all_inside) {
     const BvhHit found = scene.objects->closest(ray, longest_in_room(scene, ray));
-    return found.triangle != ~0u ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit_of(scene.prism, ray));
+    return found.triangle != kNone ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit_of(scene.prism, ray));
   }
   const Exit exit = exit_of(scene.prism, ray);
   const BvhHit found = scene.objects->closest(ray, exit.t);
-  return found.triangle != ~0u ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit);
+  return found.triangle != kNone ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit);
+}
+
+std::vector<Hit> closest(const TraceScene& scene, std::span<const Ray> rays) {
+  std::vector<Hit> hits(rays.size());
+  std::vector<BvhHit> found(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) found[i].t = scene.all_inside ? longest_in_room(scene, rays[i]) : exit_of(scene.prism, rays[i]).t;
+  scene.objects->closest_many(rays.data(), found.data(), rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    hits[i] = found[i].triangle != kNone ? hit_of_triangle(scene.objects->soup(), found[i]) : hit_of_exit(exit_of(scene.prism, rays[i]));
+  return hits;
 }
 
 Hit closest_triangle(const TraceScene& scene, const Ray& ray, double max_length) {
   const BvhHit found = scene.objects->closest(ray, std::min(max_length, longest_in_room(scene, ray)));
-  return found.triangle != ~0u ? hit_of_triangle(scene.objects->soup(), found) : Hit{};
+  return found.triangle != kNone ? hit_of_triangle(scene.objects->soup(), found) : Hit{};
 }
 
 bool occluded(const TraceScene& scene, const Ray& ray, double max_length) {

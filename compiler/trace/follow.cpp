@@ -2,6 +2,7 @@
 #include "compiler/trace/follow.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace orbc::trace {
 namespace {
@@ -21,35 +22,65 @@ const MirrorArea* mirror_at(const TraceScene& scene, const Ray& ray, const Hit& 
 
 double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
 
-}  // namespace
-
-Path follow(const TraceScene& scene, Ray ray, const FollowOptions& options) {
+Path path_at_start(const FollowOptions& options) {
   Path path;
   path.length = options.length;
   path.bounces = options.bounces;
   path.weight = options.weight;
-  for (;;) {
-    path.hit = closest(scene, ray);
-    if (path.length + path.hit.t > options.max_length) {
-      path.hit = {};
-      path.hit.t = options.max_length - path.length;
-    }
-    path.length += path.hit.t;
-    path.last = ray;
-    const MirrorArea* mirror = mirror_at(scene, ray, path.hit);
-    if (!mirror) return path;
-    const scene::Color weight = path.weight * mirror->weight;
-    if (path.bounces >= options.max_bounces || largest(weight) < options.min_weight) {
-      path.cut_off = true;
-      return path;
-    }
-    path.weight = weight;
-    ++path.bounces;
-    const int surface = path.hit.target == Target::wall ? path.hit.wall : path.hit.target == Target::floor ? kFloor : kCeiling;
-    if (options.record_word) path.word.push_back(static_cast<std::int16_t>(surface));
-    ray = surface >= 0 ? reflected_in_wall(scene.prism, ray, path.hit.t, surface)
-                       : reflected_in_plane(scene.prism, ray, path.hit.t, surface);
+  return path;
+}
+
+/// Adds the piece from the ray to its hit; at a mirror turns the ray back. False: the path ends here.
+bool goes_on(const TraceScene& scene, const FollowOptions& options, const Hit& hit, Ray& ray, Path& path) {
+  path.hit = hit;
+  path.last = ray;
+  if (path.length + hit.t > options.max_length) {
+    path.hit = {};
+    path.hit.t = options.max_length - path.length;
   }
+  path.length += path.hit.t;
+  const MirrorArea* mirror = mirror_at(scene, ray, path.hit);
+  if (!mirror) return false;
+  const scene::Color weight = path.weight * mirror->weight;
+  if (path.bounces >= options.max_bounces || largest(weight) < options.min_weight) {
+    path.cut_off = true;
+    return false;
+  }
+  path.weight = weight;
+  ++path.bounces;
+  const int surface = hit.target == Target::wall ? hit.wall : hit.target == Target::floor ? kFloor : kCeiling;
+  if (options.record_word) path.word.push_back(static_cast<std::int16_t>(surface));
+  ray = surface >= 0 ? reflected_in_wall(scene.prism, ray, hit.t, surface) : reflected_in_plane(scene.prism, ray, hit.t, surface);
+  return true;
+}
+
+}  // namespace
+
+Path follow(const TraceScene& scene, Ray ray, const FollowOptions& options) {
+  Path path = path_at_start(options);
+  while (goes_on(scene, options, closest(scene, ray), ray, path)) {
+  }
+  return path;
+}
+
+std::vector<Path> follow(const TraceScene& scene, std::span<const Ray> rays, const FollowOptions& options) {
+  std::vector<Path> paths(rays.size(), path_at_start(options));
+  std::vector<Ray> going(rays.begin(), rays.end());
+  std::vector<std::size_t> index(rays.size());
+  std::iota(index.begin(), index.end(), std::size_t{0});
+  while (!going.empty()) {  // one piece of every path that is not at its end
+    const std::vector<Hit> hits = closest(scene, going);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      Ray ray = going[i];
+      if (!goes_on(scene, options, hits[i], ray, paths[index[i]])) continue;
+      going[left] = ray;
+      index[left++] = index[i];
+    }
+    going.resize(left);
+    index.resize(left);
+  }
+  return paths;
 }
 
 Ray leave(const TraceScene& scene, const SurfacePoint& from, const Direction& direction) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compiler/base/executor.h"
@@ -57,6 +58,8 @@ struct Hit {
 /// In:     a ray that starts in the room. Thread-safe.
 /// Exact:  the same triangle, t and b as trying `intersect` on every triangle (ties in t aside).
 [[nodiscard]] Hit closest(const TraceScene& scene, const Ray& ray);
+/// The same for many rays at once, about half as long a time each: set up eight at a time, walked in turns. Best for 32 and more.
+[[nodiscard]] std::vector<Hit> closest(const TraceScene& scene, std::span<const Ray> rays);
 /// The triangles alone, up to max_length.
 [[nodiscard]] Hit closest_triangle(const TraceScene& scene, const Ray& ray, double max_length = kEndless);
 /// Whether a triangle lies between t_min and max_length on the ray. Walls do not count: follow() answers for those.

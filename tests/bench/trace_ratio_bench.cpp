@@ -48,6 +48,27 @@ void bounce(const TraceScene& scene, Ray ray, int bounces, const Find& find, Wor
   }
 }
 
+/// The same for many rays at once, as a renderer's tile would.
+Work streams(const Case& c, std::size_t begin, std::size_t end, int bounces) {
+  constexpr std::size_t kTile = 256;
+  Work work;
+  std::vector<Ray> going;
+  for (; begin < end; begin += kTile) {
+    going.assign(c.rays.begin() + static_cast<std::ptrdiff_t>(begin), c.rays.begin() + static_cast<std::ptrdiff_t>(std::min(end, begin + kTile)));
+    for (int i = 0; !going.empty(); ++i) {
+      const std::vector<Hit> hits = closest(c.scene, going);
+      work.rays += hits.size();
+      std::size_t left = 0;
+      for (std::size_t j = 0; j < hits.size(); ++j) {
+        work.hits += hits[j].target == Target::triangle;
+        if (hits[j].target == Target::wall && i < bounces) going[left++] = reflected_in_wall(c.scene.prism, going[j], hits[j].t, hits[j].wall);
+      }
+      going.resize(left);
+    }
+  }
+  return work;
+}
+
 #ifdef ORBC_EMBREE
 struct Embree {
   RTCDevice device;
@@ -153,6 +174,21 @@ void measure(std::vector<Runner>& runners, std::size_t rays, int repetitions, in
     }
 }
 
+/// Runners: [Embree], E2 S2 H2 ray by ray, E2 S2 H2 in streams.
+void print(int size, int bounces, std::vector<Runner>& runners) {
+  const std::size_t own = runners.size() - 6;
+  std::printf("%7d triangles, %s, 1 thread:", size, bounces ? "mirrors" : "camera ");
+  if (own) std::printf("  Embree %.2f Mrays/s", runners[0].rate());
+  for (std::size_t i = own; i < runners.size(); i += 3) {
+    std::printf("\n    %s:", i == own ? "ray by ray" : "streams   ");
+    for (std::size_t j = i; j < i + 3; ++j) std::printf("  %s %.2f", runners[j].name.c_str(), runners[j].rate());
+    if (own)
+      for (std::size_t j = i; j < i + 3; ++j) std::printf("%s %s %.2f", j == i ? "  | of Embree:" : "", runners[j].name.c_str(), runners[j].rate() / runners[0].rate());
+    std::printf("  | of straight: S2 %.2f H2 %.2f", runners[i + 1].rate() / runners[i].rate(), runners[i + 2].rate() / runners[i].rate());
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -195,12 +231,9 @@ int main(int argc, char** argv) {
       runners.push_back(runner("Embree", cases[0], bounces, [&](const Ray& ray) { return embree.closest(cases[0].scene, ray); }));
 #endif
       for (const Case& c : cases) runners.push_back(runner(c.name, c, bounces, [&c](const Ray& ray) { return closest(c.scene, ray); }));
+      for (const Case& c : cases) runners.push_back({c.name, [&c, bounces](std::size_t begin, std::size_t end) { return streams(c, begin, end, bounces); }, {}, {}});
       measure(runners, cases[0].rays.size(), repetitions, 1);
-      std::printf("%7d triangles, %s, 1 thread:", size, bounces ? "mirrors" : "camera ");
-      for (Runner& r : runners) std::printf("  %s %.2f Mrays/s", r.name.c_str(), r.rate());
-      const std::size_t own = runners.size() - 3;
-      if (own) std::printf("  | of Embree: E2 %.2f S2 %.2f H2 %.2f", runners[own].rate() / runners[0].rate(), runners[own + 1].rate() / runners[0].rate(), runners[own + 2].rate() / runners[0].rate());
-      std::printf("  | curved/straight: S2 %.2f H2 %.2f\n", runners[own + 1].rate() / runners[own].rate(), runners[own + 2].rate() / runners[own].rate());
+      print(size, bounces, runners);
       if (!threads) continue;
       std::vector<double> one;
       for (Runner& r : runners) one.push_back(r.rate());

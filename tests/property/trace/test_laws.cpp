@@ -18,13 +18,18 @@ void compare(const place::PlacedRoom& placed, int rays, double steep, Random& ra
   const Space space = placed.room.space;
   const TraceScene scene = prepare(placed);
   const Soup& soup = scene.objects->soup();
+  std::vector<Ray> all;
+  for (int i = 0; i < rays; ++i) all.push_back(random_ray(placed, random, steep));
+  const std::vector<Hit> together = closest(scene, all);
   for (int i = 0; i < rays; ++i) {
-    const Ray ray = random_ray(placed, random, steep);
+    const Ray& ray = all[static_cast<std::size_t>(i)];
+    const Hit& with_others = together[static_cast<std::size_t>(i)];
     const double end = space == Space::spherical && ray.c > 0 ? kPi / ray.c : kEndless;
     const BvhHit slow = try_all(space, soup, ray, end);
     const Hit fast = closest_triangle(scene, ray);
     ++tally.rays;
     const bool met = fast.target == Target::triangle, meets = slow.triangle != kNone;
+    tally.elsewhere += (with_others.target == Target::triangle) != met || (met && std::fabs(with_others.t - fast.t) > 1e-11 * (1 + fast.t));
     tally.hits += meets;
     tally.missed += meets && !met;
     tally.false_hits += met && !meets;

@@ -87,6 +87,44 @@ TEST_CASE("the tree finds what vertical and nearly vertical rays meet", "[trace]
   }
 }
 
+TEST_CASE("many rays at once meet what each alone meets", "[trace]") {
+  Random random;
+  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2), regular_room(Space::hyperbolic, 5, 2), lune(2), hemisphere()}) {
+    auto placed = furnished(room);
+    placed.parts.push_back(soup_of(placed, 60, 0.8, random));
+    placed.parts.push_back(soup_of(placed, 600, 0.1, random));
+    placed.looks.resize(1);
+    const TraceScene scene = prepare(placed);
+    for (const std::size_t count : {1, 7, 8, 33, 2000}) {
+      std::vector<Ray> rays;
+      for (std::size_t i = 0; i < count; ++i) {
+        rays.push_back(random_ray(placed, random, i % 3 == 0 ? 1 : i % 3 == 1 ? 0.1 : 0));
+        if (i % 5 == 0) rays.back().t_min = 0.2 * random.unit();
+        if (i % 7 == 0) rays.back().c = 0, rays.back().m = 1;
+      }
+      const std::vector<Hit> hits = closest(scene, rays);
+      REQUIRE(hits.size() == count);
+      int wrong = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Hit one = closest(scene, rays[i]);
+        const bool triangle = one.target == Target::triangle;
+        wrong += hits[i].target != one.target || std::fabs(hits[i].t - one.t) > 1e-12 * (1 + one.t) || hits[i].wall != one.wall;
+        if (triangle && hits[i].triangle == one.triangle)
+          for (int j = 0; j < 3; ++j) wrong += std::fabs(hits[i].b[j] - one.b[j]) > 1e-9;
+        const BvhHit slow = try_all(room.space, scene.objects->soup(), rays[i], room.space == Space::spherical && rays[i].c > 0 ? kPi / rays[i].c : kEndless);
+        wrong += triangle != (slow.triangle != kNone) || (triangle && std::fabs(slow.t - one.t) > 1e-12 * (1 + slow.t));
+      }
+      CHECK(wrong == 0);
+      const std::vector<Path> paths = follow(scene, rays, {.max_bounces = 5, .record_word = true});
+      for (std::size_t i = 0; i < count; ++i) {
+        const Path path = follow(scene, rays[i], {.max_bounces = 5, .record_word = true});
+        wrong += paths[i].word != path.word || paths[i].hit.target != path.hit.target || std::fabs(paths[i].length - path.length) > 1e-9;
+      }
+      CHECK(wrong == 0);
+    }
+  }
+}
+
 TEST_CASE("the tree is the same for any number of threads and small", "[trace]") {
   const auto mesh = torus_knot(Space::hyperbolic, {}, 0.25, 0.06, 0.5, 500, 20);
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {

@@ -1,0 +1,213 @@
+// The node test and the leaf test, eight boxes or triangles at a time. Included once per instruction set (Highway's way), hence the guard.
+#if defined(ORBC_TRACE_JUDGE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ORBC_TRACE_JUDGE_INL_H
+#undef ORBC_TRACE_JUDGE_INL_H
+#else
+#define ORBC_TRACE_JUDGE_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+
+#include "compiler/trace/chart_ray.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace orbc::trace::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using geometry::Space;
+using D = hn::CappedTag<float, 8>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+/// Odd polynomial, increasing on all of ℝ: no clamp is needed however far a box lies.
+template <int kTerms>
+HWY_INLINE V odd_polynomial(const Chart& chart, V a, V shift) {
+  const D d;
+  if constexpr (kTerms == 1) return hn::Add(a, shift);
+  const auto c = [&](int k) { return hn::Set(d, chart.poly[k]); };
+  const V y = hn::Mul(a, a);  // Estrin's order: the chain of dependent steps is what a node waits for
+  if constexpr (kTerms == 2) return hn::MulAdd(a, hn::MulAdd(y, c(1), c(0)), shift);
+  const V yy = hn::Mul(y, y), low = hn::MulAdd(y, c(1), c(0));
+  if constexpr (kTerms == 3) return hn::MulAdd(a, hn::MulAdd(yy, c(2), low), shift);
+  const V high = hn::MulAdd(y, c(3), c(2));
+  if constexpr (kTerms == 4) return hn::MulAdd(a, hn::MulAdd(yy, high, low), shift);
+  if constexpr (kTerms == 5) return hn::MulAdd(a, hn::MulAdd(yy, hn::MulAdd(yy, c(4), high), low), shift);
+  const V top = hn::MulAdd(yy, c(6), hn::MulAdd(y, c(5), c(4)));
+  return hn::MulAdd(a, hn::MulAdd(yy, hn::MulAdd(yy, top, high), low), shift);
+}
+
+/// Which of a node's boxes the ray may touch between `start` and `end`, and where it enters them.
+template <int kTerms>
+HWY_INLINE std::uint32_t touched(const Node8& node, const Chart& chart, const ChartRay& ray, float end, float* HWY_RESTRICT enters) {
+  const D d;
+  std::uint32_t bits = 0;
+  const V error = hn::Set(d, chart.poly_error), minus_error = hn::Set(d, -chart.poly_error);
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+    V near = hn::Set(d, ray.start), far = hn::Set(d, end);
+    for (int a = 0; a < 2; ++a) {
+      const V scale = hn::Set(d, ray.scale[a]);
+      near = hn::Max(near, hn::MulSub(hn::Load(d, node.bounds[a][ray.near[a]] + i), scale, hn::Set(d, ray.near_offset[a])));
+      far = hn::Min(far, hn::MulSub(hn::Load(d, node.bounds[a][1 - ray.near[a]] + i), scale, hn::Set(d, ray.far_offset[a])));
+    }
+    const V slope = hn::Set(d, ray.slope);
+    const V low = hn::MulSub(hn::Load(d, node.bounds[2][ray.near[2]] + i), slope, hn::Set(d, ray.near_height));
+    const V high = hn::MulSub(hn::Load(d, node.bounds[2][1 - ray.near[2]] + i), slope, hn::Set(d, ray.far_height));
+    near = hn::Max(near, odd_polynomial<kTerms>(chart, low, minus_error));
+    far = hn::Min(far, odd_polynomial<kTerms>(chart, high, error));
+    hn::Store(near, d, enters + i);
+    std::uint8_t mask[8] = {};
+    hn::StoreMaskBits(d, hn::Le(near, far), mask);
+    bits |= static_cast<std::uint32_t>(mask[0]) << i;
+  }
+  return bits;
+}
+
+/// A corner of eight triangles over the ray.
+struct Corner {
+  V h, t, z_by_w, by_w;
+};
+
+struct Cut {
+  V t, a, w, t_error, a_error;      ///< t, argument of tanκ, 1/w of an edge's crossing, and bounds of the errors of the first two
+};
+
+HWY_INLINE Corner pick(M first, const Corner& a, const Corner& b) {
+  return {hn::IfThenElse(first, a.h, b.h), hn::IfThenElse(first, a.t, b.t), hn::IfThenElse(first, a.z_by_w, b.z_by_w),
+          hn::IfThenElse(first, a.by_w, b.by_w)};
+}
+
+/// 1/x to about 2 ulp: a division would be waited for.
+HWY_INLINE V by(V x) {
+  const D d;
+  const V r = hn::ApproximateReciprocal(x);
+  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
+}
+
+/// The Padé approximant [5/4] of tanκ, as in chart.h.
+HWY_INLINE V pade(V kappa, V a) {
+  const D d;
+  const V y = hn::Mul(a, a);
+  const V over = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -105.0f), kappa, y), hn::Set(d, 945.0f));
+  const V under = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -420.0f), kappa, hn::Mul(hn::Set(d, 15.0f), y)), hn::Set(d, 945.0f));
+  return hn::Mul(hn::Mul(a, over), by(under));
+}
+
+struct LeafConstants {
+  float height_bound, largest_w;
+};
+
+template <Space kSpace>
+HWY_INLINE Cut cut_edge(const ChartRay& ray, const LeafConstants& leaf, const Corner& i, const Corner& j) {
+  const D d;
+  const V hi = hn::Abs(i.h), hj = hn::Abs(j.h);
+  const V by_sum = by(hn::Add(hi, hj));
+  const V weight_error = hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum);
+  Cut cut;
+  cut.t = hn::Mul(by_sum, hn::MulAdd(hj, i.t, hn::Mul(hi, j.t)));
+  cut.t_error = hn::MulAdd(weight_error, hn::Abs(hn::Sub(i.t, j.t)), hn::Set(d, ray.t_error));
+  V z = hn::MulAdd(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
+  V dz = hn::Abs(hn::Sub(i.z_by_w, j.z_by_w));
+  if constexpr (kSpace != Space::euclidean) {
+    const V w = hn::MulAdd(hj, i.by_w, hn::Mul(hi, j.by_w));
+    z = hn::Mul(z, by(w));
+    cut.w = hn::Mul(w, by_sum);
+    dz = hn::Mul(hn::Set(d, leaf.largest_w), hn::MulAdd(hn::Set(d, leaf.height_bound), hn::Abs(hn::Sub(i.by_w, j.by_w)), dz));
+  } else {
+    z = hn::Mul(z, by_sum);
+    cut.w = by_sum;
+  }
+  cut.a = hn::MulSub(z, hn::Set(d, ray.slope), hn::Set(d, ray.height));
+  cut.a_error = hn::MulAdd(hn::Mul(weight_error, dz), hn::Set(d, ray.steepness), hn::Set(d, ray.slope_error));
+  return cut;
+}
+
+/// What the float test of a block found out.
+struct alignas(32) Verdict {
+  float f_one[8], f_two[8];         ///< t − tanκ(a) at the two crossings
+  float nearer[8], farther[8];      ///< bounds of t at the triangle; of sure ones, of the hit
+  std::uint32_t candidates = 0;     ///< bit per lane: the triangle may be met
+  std::uint32_t sure = 0;           ///< of these: it is met exactly once, between the crossings
+};
+
+HWY_INLINE std::uint32_t bits_of(M mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(D(), mask, bits);
+  return bits[0];
+}
+
+/// Which of eight triangles the ray may meet between `start` and `end`.
+/// Conservative: with f = t − tanκ(a) at the two crossings, a triangle is dropped only when f has surely the same sign at both and neither is
+/// nearer to 0 than the curve in between can bend, or both crossings surely lie beyond the chart's heights, or beside the ray's ends. It is
+/// sure when the signs differ by so much that no rounding and no bend (f′ = 0 needs |f₁ − f₂| ≤ max|f″| = 8 bends) matters.
+template <Space kSpace>
+HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, const LeafConstants& leaf, Verdict& verdict) {
+  const D d;
+  verdict.candidates = verdict.sure = 0;
+  for (std::size_t lane = 0; lane < 8; lane += hn::Lanes(d)) {
+    Corner corner[3];
+    for (int i = 0; i < 3; ++i) {
+      const V x = hn::Load(d, block.x[i] + lane), y = hn::Load(d, block.y[i] + lane);
+      corner[i].t = hn::MulAdd(x, hn::Set(d, ray.t_x), hn::Mul(y, hn::Set(d, ray.t_y)));
+      corner[i].h = hn::MulAdd(x, hn::Set(d, ray.h_x), hn::MulSub(y, hn::Set(d, ray.h_y), hn::Set(d, ray.h_0)));
+      corner[i].z_by_w = hn::Load(d, block.z_by_w[i] + lane);
+      corner[i].by_w = hn::Load(d, block.by_w[i] + lane);
+    }
+    const V h_error = hn::Set(d, ray.h_error), zero = hn::Zero(d);
+    const V lowest = hn::Min(corner[0].h, hn::Min(corner[1].h, corner[2].h)), highest = hn::Max(corner[0].h, hn::Max(corner[1].h, corner[2].h));
+    const M crosses = hn::And(hn::Le(lowest, h_error), hn::Ge(highest, hn::Neg(h_error)));
+    if (hn::AllFalse(d, crosses)) continue;
+    const M left0 = hn::Ge(corner[0].h, zero), left1 = hn::Ge(corner[1].h, zero), left2 = hn::Ge(corner[2].h, zero);
+    const V nearest = hn::Min(hn::Abs(corner[0].h), hn::Min(hn::Abs(corner[1].h), hn::Abs(corner[2].h)));
+    const M unsure = hn::Le(nearest, h_error);  // a corner on the ray's line: which edges are cut is not known
+    const Cut one = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left1), corner[0], corner[2]), corner[1]);
+    const Cut two = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left2), corner[0], corner[1]), corner[2]);
+    const V farther = hn::Max(hn::Add(one.t, one.t_error), hn::Add(two.t, two.t_error));
+    const V nearer = hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error));
+    const M late = hn::Gt(nearer, hn::Set(d, ray.reach));
+    M missed = hn::Or(late, hn::Lt(farther, hn::Set(d, ray.start)));
+    V f1, f2, e1, e2;
+    if constexpr (kSpace == Space::euclidean) {
+      f1 = hn::Sub(one.t, one.a);
+      f2 = hn::Sub(two.t, two.a);
+      e1 = hn::Add(one.t_error, one.a_error);
+      e2 = hn::Add(two.t_error, two.a_error);
+      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
+      missed = hn::Or(missed, hn::Or(over, under));
+      const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
+      verdict.sure |= bits_of(hn::AndNot(unsure, hn::And(hn::Gt(least, zero), hn::Lt(hn::Mul(f1, f2), zero)))) << lane;
+    } else {
+      constexpr float kCurvature = kSpace == Space::spherical ? 1.0f : -1.0f;
+      const V reach = hn::Set(d, chart.reach), minus_reach = hn::Set(d, -chart.reach), kappa = hn::Set(d, kCurvature);
+      const M above = hn::And(hn::Gt(hn::Sub(one.a, one.a_error), reach), hn::Gt(hn::Sub(two.a, two.a_error), reach));
+      const M below = hn::And(hn::Lt(hn::Add(one.a, one.a_error), minus_reach), hn::Lt(hn::Add(two.a, two.a_error), minus_reach));
+      const V a1 = hn::Min(reach, hn::Max(minus_reach, one.a)), a2 = hn::Min(reach, hn::Max(minus_reach, two.a));
+      f1 = hn::Sub(one.t, pade(kappa, a1));
+      f2 = hn::Sub(two.t, pade(kappa, a2));
+      const V steepest = hn::Set(d, chart.steepest), leaf_error = hn::Set(d, chart.leaf_error);
+      // Bound of the curve's deviation from its chord: |f″|/8 over the segment, f = t − tanκ(a(u)), a projective in u.
+      const V da = hn::Abs(hn::Sub(one.a, two.a)), dw = hn::Abs(hn::Sub(one.w, two.w));
+      V bend = hn::Mul(da, hn::MulAdd(da, hn::Set(d, chart.bend_of_tan), hn::Mul(dw, hn::Set(d, chart.bend_of_height))));
+      const M clamped = hn::Or(hn::Ne(a1, one.a), hn::Ne(a2, two.a));
+      bend = hn::Add(bend, hn::IfThenElseZero(clamped, hn::Abs(hn::Sub(one.t, two.t))));
+      e1 = hn::Add(bend, hn::Add(one.t_error, hn::MulAdd(steepest, one.a_error, leaf_error)));
+      e2 = hn::Add(bend, hn::Add(two.t_error, hn::MulAdd(steepest, two.a_error, leaf_error)));
+      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
+      missed = hn::Or(hn::Or(missed, hn::Or(above, below)), hn::Or(over, under));
+      const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
+      const M sure = hn::AndNot(hn::Or(unsure, clamped), hn::And(hn::Gt(least, hn::Mul(hn::Set(d, 3.0f), bend)), hn::Lt(hn::Mul(f1, f2), zero)));
+      verdict.sure |= bits_of(sure) << lane;
+    }
+    hn::Store(f1, d, verdict.f_one + lane);
+    hn::Store(f2, d, verdict.f_two + lane);
+    hn::Store(nearer, d, verdict.nearer + lane);
+    hn::Store(farther, d, verdict.farther + lane);
+    const std::uint32_t bits = bits_of(hn::And(crosses, hn::Or(unsure, hn::Not(missed))));
+    verdict.candidates |= bits << lane;
+  }
+}
+
+}  // namespace orbc::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,159 @@
+// The points of triangles that are surely met once, four at a time in double: the same as exact::meet_once, side by side. Included once per
+// instruction set, hence the guard.
+#if defined(ORBC_TRACE_RESOLVE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ORBC_TRACE_RESOLVE_INL_H
+#undef ORBC_TRACE_RESOLVE_INL_H
+#else
+#define ORBC_TRACE_RESOLVE_INL_H
+#endif
+
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+#include "compiler/trace/meet.h"
+#include "compiler/trace/walk.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace orbc::trace::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D4 = hn::CappedTag<double, 4>;
+using V4 = hn::Vec<D4>;
+
+struct Triple {
+  V4 w, x, y;
+};
+HWY_INLINE V4 dot(const Triple& a, const Triple& b) { return hn::MulAdd(a.w, b.w, hn::MulAdd(a.x, b.x, hn::Mul(a.y, b.y))); }
+
+/// Inputs of four, side by side.
+struct alignas(64) Quad {
+  double ray[9][4];                 ///< P, V, z, c, m
+  double corner[3][4][4];           ///< per corner w, x, y, z
+  double guess[4];
+  double t[4], b1[4], b2[4], g[4], u[4];  ///< results
+};
+
+template <geometry::Space kSpace>
+HWY_INLINE V4 arc4(V4 p, V4 v) {
+  const D4 d;
+  if constexpr (kSpace == geometry::Space::euclidean) return hn::Div(v, p);
+  if constexpr (kSpace == geometry::Space::hyperbolic) return hn::Mul(hn::Set(d, 0.5), hn::Log(d, hn::Div(hn::Add(p, v), hn::Sub(p, v))));
+  const V4 a = hn::Abs(v), b = hn::Abs(p), s = hn::Atan(d, hn::Div(hn::Min(a, b), hn::Max(a, b)));
+  const V4 octant = hn::IfThenElse(hn::Gt(a, b), hn::Sub(hn::Set(d, exact::kPi / 2), s), s);
+  return hn::CopySign(hn::IfThenElse(hn::Lt(p, hn::Zero(d)), hn::Sub(hn::Set(d, exact::kPi), octant), octant), v);
+}
+
+template <geometry::Space kSpace>
+HWY_INLINE void resolve_four(Quad& q) {
+  const D4 d;
+  constexpr double k = geometry::curvature(kSpace);
+  for (std::size_t i = 0; i < 4; i += hn::Lanes(d)) {
+    const auto load = [&](const double* from) { return hn::Load(d, from + i); };
+    const Triple p{load(q.ray[0]), load(q.ray[1]), load(q.ray[2])}, v{load(q.ray[3]), load(q.ray[4]), load(q.ray[5])};
+    const V4 z_ray = load(q.ray[6]), c = load(q.ray[7]), m = load(q.ray[8]), kappa = hn::Set(d, k);
+    const Triple side{hn::MulSub(p.x, v.y, hn::Mul(p.y, v.x)), hn::MulSub(p.y, v.w, hn::Mul(p.w, v.y)), hn::MulSub(p.w, v.x, hn::Mul(p.x, v.w))};
+    const Triple forward{p.w, hn::Mul(kappa, p.x), hn::Mul(kappa, p.y)};
+    const Triple sideward{kSpace == geometry::Space::euclidean ? hn::Neg(hn::MulAdd(p.x, v.x, hn::Mul(p.y, v.y))) : hn::Mul(kappa, v.w), v.x, v.y};
+    V4 h[3], pp[3], vv[3], z[3];
+    for (int j = 0; j < 3; ++j) {
+      const Triple x{load(q.corner[j][0]), load(q.corner[j][1]), load(q.corner[j][2])};
+      h[j] = dot(side, x);
+      pp[j] = dot(forward, x);
+      vv[j] = dot(sideward, x);
+      z[j] = load(q.corner[j][3]);
+    }
+    // The two cut edges: (0 or 2, 1) and (0 or 1, 2).
+    const V4 zero = hn::Zero(d), one = hn::Set(d, 1.0);
+    const auto left0 = hn::Ge(h[0], zero), left1 = hn::Ge(h[1], zero), left2 = hn::Ge(h[2], zero);
+    const auto to1 = hn::Xor(left0, left1), to2 = hn::Xor(left0, left2);
+    const auto pick = [&](auto mask, const V4* of, int other) { return hn::IfThenElse(mask, of[0], of[other]); };
+    const V4 ha = hn::Abs(pick(to1, h, 2)), hb = hn::Abs(pick(to2, h, 1)), h1 = hn::Abs(h[1]), h2 = hn::Abs(h[2]);
+    const V4 wa = hn::Div(ha, hn::Add(ha, h1)), wb = hn::Div(hb, hn::Add(hb, h2));  // weights of corners 1 and 2
+    const auto mix = [&](V4 from, V4 to, V4 w) { return hn::MulAdd(w, hn::Sub(to, from), from); };
+    const V4 pa = mix(pick(to1, pp, 2), pp[1], wa), va = mix(pick(to1, vv, 2), vv[1], wa), za = mix(pick(to1, z, 2), z[1], wa);
+    const V4 dp = hn::Sub(mix(pick(to2, pp, 1), pp[2], wb), pa), dv = hn::Sub(mix(pick(to2, vv, 1), vv[2], wb), va);
+    const V4 dz = hn::Sub(mix(pick(to2, z, 1), z[2], wb), za);
+    const V4 twist = hn::MulSub(pa, dv, hn::Mul(va, dp));
+    V4 u = load(q.guess), pu = hn::MulAdd(u, dp, pa), vu = hn::MulAdd(u, dv, va), s = arc4<kSpace>(pu, vu);
+    const auto value = [&] { return hn::MulAdd(c, hn::Sub(z_ray, hn::MulAdd(u, dz, za)), hn::Mul(m, s)); };
+    const V4 speed = hn::Div(twist, hn::MulAdd(pu, pu, hn::Mul(kappa, hn::Mul(vu, vu))));
+    const V4 by_slope = hn::Div(one, hn::MulSub(m, speed, hn::Mul(c, dz)));
+    V4 g = value();
+    for (int step = 0; step < 2; ++step) {
+      const V4 du = hn::Neg(hn::Mul(g, by_slope)), p_old = pu, v_old = vu;
+      u = hn::Add(u, du);
+      pu = hn::MulAdd(u, dp, pa);
+      vu = hn::MulAdd(u, dv, va);
+      const V4 x = hn::Div(hn::Mul(du, twist), hn::MulAdd(p_old, pu, hn::Mul(kappa, hn::Mul(v_old, vu))));
+      s = hn::Add(s, hn::NegMulAdd(hn::Mul(hn::Set(d, k / 3), x), hn::Mul(x, x), x));
+      g = value();
+    }
+    const V4 rest = hn::Sub(one, u);
+    // Weights of corners 1 and 2: their own edges', and what the other edge gives them as its far corner.
+    const V4 b1 = hn::MulAdd(rest, wa, hn::IfThenElseZero(hn::Not(to2), hn::Mul(u, hn::Sub(one, wb))));
+    const V4 b2 = hn::MulAdd(u, wb, hn::IfThenElseZero(hn::Not(to1), hn::Mul(rest, hn::Sub(one, wa))));
+    hn::Store(hn::MulAdd(c, s, hn::Mul(m, hn::Sub(hn::MulAdd(u, dz, za), z_ray))), d, q.t + i);
+    hn::Store(b1, d, q.b1 + i);
+    hn::Store(b2, d, q.b2 + i);
+    hn::Store(g, d, q.g + i);
+    hn::Store(u, d, q.u + i);
+  }
+}
+
+/// Gives the walk's rays from `first` on their pending triangles' points.
+template <geometry::Space kSpace>
+HWY_NOINLINE void resolve_many(const Walk& walk, std::size_t first, std::size_t count, const Pending* pending) {
+  Quad quad;
+  std::size_t index[4];
+  int filled = 0;
+  const auto corners_of = [&](std::uint32_t triangle, const Vertex* out[3]) {
+    for (int j = 0; j < 3; ++j) out[j] = walk.soup->vertices.data() + walk.soup->triangles[triangle][j];
+  };
+  const auto flush = [&] {
+    if (filled == 0) return;
+    for (int lane = filled; lane < 4; ++lane) {  // unused lanes repeat the first: no stray NaN traps, no stray denormals
+      for (auto& field : quad.ray) field[lane] = field[0];
+      for (auto& corner : quad.corner)
+        for (auto& field : corner) field[lane] = field[0];
+      quad.guess[lane] = quad.guess[0];
+    }
+    resolve_four<kSpace>(quad);
+    for (int lane = 0; lane < filled; ++lane) {
+      const std::size_t i = index[lane];
+      BvhHit& best = walk.best[first + i];
+      const Ray& ray = walk.ray[first + i];
+      if (std::fabs(quad.g[lane]) <= 2e-15 && quad.u[lane] >= 0 && quad.u[lane] <= 1) {
+        if (quad.t[lane] > ray.t_min && quad.t[lane] < best.t)
+          best = {pending[i].triangle, quad.t[lane], {1 - quad.b1[lane] - quad.b2[lane], quad.b1[lane], quad.b2[lane]}};
+        continue;
+      }
+      const Vertex* corners[3];
+      corners_of(pending[i].triangle, corners);
+      const TriangleHit hit = exact::meet<kSpace>(plane_of(kSpace, ray), corners, best.t);
+      if (hit.found) best = {pending[i].triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
+    }
+    filled = 0;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (pending[i].triangle == kNone) continue;
+    const Ray& ray = walk.ray[first + i];
+    const double fields[9] = {ray.at.w, ray.at.x, ray.at.y, ray.along.w, ray.along.x, ray.along.y, ray.z, ray.c, ray.m};
+    for (int f = 0; f < 9; ++f) quad.ray[f][filled] = fields[f];
+    const Vertex* corners[3];
+    corners_of(pending[i].triangle, corners);
+    for (int j = 0; j < 3; ++j) {
+      quad.corner[j][0][filled] = corners[j]->w;
+      quad.corner[j][1][filled] = corners[j]->x;
+      quad.corner[j][2][filled] = corners[j]->y;
+      quad.corner[j][3][filled] = corners[j]->z;
+    }
+    quad.guess[filled] = pending[i].guess;
+    index[filled++] = i;
+    if (filled == 4) flush();
+  }
+  flush();
+}
+
+}  // namespace orbc::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,185 @@
+// Set-up of eight rays for a chart: the same as chart_ray(), side by side. Included once per instruction set, hence the guard.
+#if defined(ORBC_TRACE_SET_UP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ORBC_TRACE_SET_UP_INL_H
+#undef ORBC_TRACE_SET_UP_INL_H
+#else
+#define ORBC_TRACE_SET_UP_INL_H
+#endif
+
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+#include "compiler/trace/chart_ray.h"
+#include "compiler/trace/walk.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace orbc::trace::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using V4f = hn::Vec<hn::CappedTag<double, 4>>;
+
+/// Results of the part in double, per ray, already rounded.
+struct alignas(64) Feet {
+  float r[8], cx[8], cy[8], ex[8], ey[8], start[8], z[8], c[8], m[8];
+  double over[8], under[8];         ///< the arc of the start is atan2(over, under), or half the logarithm of over/under
+  double r2[8];
+};
+
+template <geometry::Space kSpace>
+HWY_INLINE void find_feet(const Chart& chart, const double in[9][8], Feet& feet) {
+  using geometry::Space;
+  const hn::CappedTag<double, 4> d;
+  const hn::Rebind<float, decltype(d)> df;
+  const auto& map = chart.chart_from_room;
+  constexpr double k = geometry::curvature(kSpace);
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+    const auto load = [&](int f) { return hn::Load(d, in[f] + i); };
+    const auto put = [&](V4f v, float* to) { hn::Store(hn::DemoteTo(df, v), df, to + i); };
+    V4f pw = load(0), px = load(1), py = load(2), vw = load(3), vx = load(4), vy = load(5);
+    if constexpr (kSpace == Space::euclidean) {
+      px = hn::Add(px, hn::Set(d, map[1][0]));
+      py = hn::Add(py, hn::Set(d, map[2][0]));
+      const V4f along = hn::Add(hn::Mul(px, vx), hn::Mul(py, vy));
+      put(hn::Set(d, 1.0), feet.r);
+      put(hn::Sub(px, hn::Mul(along, vx)), feet.cx);
+      put(hn::Sub(py, hn::Mul(along, vy)), feet.cy);
+      put(vx, feet.ex);
+      put(vy, feet.ey);
+      put(along, feet.start);
+      hn::Store(along, d, feet.over + i);
+      continue;
+    }
+    if (chart.moved) {
+      const auto row = [&](int j, V4f w, V4f x, V4f y) {
+        return hn::Add(hn::Add(hn::Mul(hn::Set(d, map[j][0]), w), hn::Mul(hn::Set(d, map[j][1]), x)), hn::Mul(hn::Set(d, map[j][2]), y));
+      };
+      const V4f p0 = row(0, pw, px, py), p1 = row(1, pw, px, py), p2 = row(2, pw, px, py);
+      const V4f v0 = row(0, vw, vx, vy), v1 = row(1, vw, vx, vy), v2 = row(2, vw, vx, vy);
+      pw = p0, px = p1, py = p2, vw = v0, vx = v1, vy = v2;
+    }
+    const V4f kvw = hn::Mul(hn::Set(d, k), vw);
+    const V4f r2 = hn::Add(hn::Mul(pw, pw), hn::Mul(kvw, vw)), r = hn::Sqrt(r2);
+    const V4f by_r2 = hn::Div(hn::Set(d, 1.0), r2), by_r = hn::Mul(r, by_r2);
+    put(r, feet.r);
+    put(hn::Mul(hn::Add(hn::Mul(pw, px), hn::Mul(kvw, vx)), by_r2), feet.cx);
+    put(hn::Mul(hn::Add(hn::Mul(pw, py), hn::Mul(kvw, vy)), by_r2), feet.cy);
+    put(hn::Mul(hn::Sub(hn::Mul(pw, vx), hn::Mul(vw, px)), by_r), feet.ex);
+    put(hn::Mul(hn::Sub(hn::Mul(pw, vy), hn::Mul(vw, py)), by_r), feet.ey);
+    put(hn::Div(hn::Neg(kvw), pw), feet.start);
+    hn::Store(r2, d, feet.r2 + i);
+    if constexpr (kSpace == Space::spherical) {
+      hn::Store(hn::Neg(vw), d, feet.over + i);
+      hn::Store(pw, d, feet.under + i);
+    } else {
+      hn::Store(hn::Div(hn::Add(pw, vw), hn::Sub(pw, vw)), d, feet.over + i);
+    }
+  }
+}
+
+/// Arcs of the starts from their feet, to a few ulp of float.
+template <geometry::Space kSpace>
+HWY_INLINE void find_arcs(const Feet& feet, float s0[8]) {
+  using geometry::Space;
+  const hn::CappedTag<double, 4> dd;
+  const hn::Rebind<float, decltype(dd)> d;
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(dd)) {
+    const auto over = hn::DemoteTo(d, hn::Load(dd, feet.over + i));
+    if constexpr (kSpace == Space::euclidean) {
+      hn::Store(over, d, s0 + i);
+    } else if constexpr (kSpace == Space::hyperbolic) {
+      hn::Store(hn::Mul(hn::Set(d, 0.5f), hn::Log(d, over)), d, s0 + i);
+    } else {
+      const auto under = hn::DemoteTo(d, hn::Load(dd, feet.under + i)), a = hn::Abs(over), b = hn::Abs(under);
+      const auto steep = hn::Gt(a, b);
+      const auto s = hn::Atan(d, hn::Div(hn::Min(a, b), hn::Max(a, b)));
+      const auto octant = hn::IfThenElse(steep, hn::Sub(hn::Set(d, 1.57079633f), s), s);
+      const auto half = hn::IfThenElse(hn::Lt(under, hn::Zero(d)), hn::Sub(hn::Set(d, 3.14159265f), octant), octant);
+      hn::Store(hn::CopySign(half, over), d, s0 + i);
+    }
+  }
+}
+
+/// In: count ≤ 8 rays of the walk from `first` on.
+template <geometry::Space kSpace>
+HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, ChartRay* out) {
+  using geometry::Space;
+  using namespace chart_ray_detail;
+  const Chart& chart = *walk.chart;
+  alignas(64) double in[9][8];
+  for (std::size_t lane = 0; lane < 8; ++lane) {
+    const Ray& ray = walk.ray[first + std::min(lane, count - 1)];
+    const double fields[9] = {ray.at.w, ray.at.x, ray.at.y, ray.along.w, ray.along.x, ray.along.y, ray.z, ray.c, ray.m};
+    for (int f = 0; f < 9; ++f) in[f][lane] = fields[f];
+  }
+  Feet feet;
+  find_feet<kSpace>(chart, in, feet);
+  for (int lane = 0; lane < 8; ++lane) {
+    feet.z[lane] = static_cast<float>(in[6][lane]);
+    feet.c[lane] = static_cast<float>(in[7][lane]);
+    feet.m[lane] = static_cast<float>(in[8][lane]);
+  }
+  alignas(64) float s0[8];
+  find_arcs<kSpace>(feet, s0);
+  const hn::CappedTag<float, 8> d;
+  const float extent = chart.extent, ulp = static_cast<float>(kUlp);
+  const float margin = 16 * ulp * extent, margin_z = 16 * ulp * std::max(static_cast<float>(walk.height_bound), 0.02f) + 4e-9f * extent;
+  alignas(64) float scale[3][8], near_offset[3][8], far_offset[3][8], at_scaled[3][8], error[3][8], h_0[8];
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+    const float* num[3] = {feet.r, feet.r, feet.c};
+    const float* den[3] = {feet.ex, feet.ey, feet.m};
+    const float* where[3] = {feet.cx, feet.cy, feet.z};
+    for (int a = 0; a < 3; ++a) {
+      const auto most = hn::Set(d, static_cast<float>(a == 2 ? kSteep : kFlat));
+      const auto q = hn::Min(most, hn::Max(hn::Neg(most), hn::Div(hn::Load(d, num[a] + i), hn::Load(d, den[a] + i))));
+      const auto at = hn::Load(d, where[a] + i);
+      const auto pad = hn::CopySign(hn::MulAdd(hn::Set(d, 16 * ulp), hn::Abs(at), hn::Set(d, a == 2 ? margin_z : margin)), q);
+      hn::Store(q, d, scale[a] + i);
+      hn::Store(hn::Mul(hn::Add(at, pad), q), d, near_offset[a] + i);
+      hn::Store(hn::Mul(hn::Sub(at, pad), q), d, far_offset[a] + i);
+      hn::Store(hn::Mul(at, q), d, at_scaled[a] + i);
+      hn::Store(hn::Abs(hn::Mul(pad, q)), d, error[a] + i);
+    }
+    hn::Store(hn::MulSub(hn::Load(d, feet.ex + i), hn::Load(d, feet.cy + i), hn::Mul(hn::Load(d, feet.ey + i), hn::Load(d, feet.cx + i))), d, h_0 + i);
+  }
+  const float beyond = static_cast<float>(chart.radius * 1.0001 + 1e-6);
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    ChartRay& ray = out[lane];
+    const Ray& from = walk.ray[first + lane];
+    const double t_max = walk.best[first + lane].t;
+    float s = s0[lane];
+    if (kSpace == Space::spherical && s > beyond) s -= 6.28318531f;
+    ray.s0 = s;
+    ray.misses = s > beyond || s + static_cast<float>(from.c * t_max) < -beyond;
+    if constexpr (kSpace != Space::euclidean) {
+      if (kSpace == Space::spherical ? feet.r2[lane] < chart.nearest_foot2 : feet.r2[lane] > chart.nearest_foot2) ray.misses = true;
+    }
+    if (ray.misses) continue;
+    ray.c = from.c;
+    const float start = feet.start[lane];
+    ray.start = s < -static_cast<float>(chart.radius) ? -kNever : start - 48 * ulp * (static_cast<float>(chart.tangent) + std::fabs(start));
+    set_ends<kSpace>(chart, from, t_max, ray);
+    for (int a = 0; a < 3; ++a) ray.near[a] = std::signbit(scale[a][lane]);
+    for (int a = 0; a < 2; ++a) {
+      ray.scale[a] = scale[a][lane];
+      ray.near_offset[a] = near_offset[a][lane];
+      ray.far_offset[a] = far_offset[a][lane];
+    }
+    ray.slope = scale[2][lane];
+    ray.steepness = std::fabs(ray.slope);
+    ray.near_height = near_offset[2][lane] - s;
+    ray.far_height = far_offset[2][lane] - s;
+    ray.height = at_scaled[2][lane] - s;
+    ray.slope_error = error[2][lane] + 16 * ulp * std::fabs(s);
+    ray.t_x = feet.ex[lane] * feet.r[lane];
+    ray.t_y = feet.ey[lane] * feet.r[lane];
+    ray.h_x = -feet.ey[lane];
+    ray.h_y = feet.ex[lane];
+    ray.h_0 = h_0[lane];
+    ray.h_error = 16 * ulp * extent;
+    ray.t_error = 20 * ulp * extent * feet.r[lane];
+  }
+}
+
+}  // namespace orbc::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
