@@ -74,5 +74,4 @@ TEST_CASE("bent positions are where integrated geodesics from the eye end", "[be
   }
   CHECK(compared > 150);
   CHECK(worst <= 1e-9);
-  WARN(geometry::name(space) << ": " << compared << " geodesics, worst " << worst);
 }

@@ -112,7 +112,7 @@ TEST_CASE("every chord and every triangle lies within the tolerance, seen in the
   const auto uv = plain_uv(room);
   const auto nets = nets_of(room, uv);
   double worst = 0;
-  for (int view = 0; view < 3; ++view) {
+  for (int view = 0; view < 2; ++view) {
     const auto eye = eye_at(room.room.space, 0.1 + 0.15 * view, 1.0 + 2 * view, 0.3 + 0.2 * view, 1.7 * view, 0.2 - 0.2 * view);
     const Sight sight = sight_of(eye, {});
     for (const auto& copy : copies_for(of, room)) {
@@ -125,21 +125,21 @@ TEST_CASE("every chord and every triangle lies within the tolerance, seen in the
         for (const auto& t : flat.triangles) {
           if (flat.fixed[t[0]] || flat.fixed[t[1]] || flat.fixed[t[2]]) continue;
           const Vector3 drawn[3] = {flat.at[t[0]], flat.at[t[1]], flat.at[t[2]]};
-          for (int s = 0; s < 3 * 15 + 6; ++s) {
+          for (int s = 0; s < 3 * 9 + 6; ++s) {
             double b[3] = {0, 0, 0};
-            if (s < 45) {
-              const double along = (s % 15 + 1) / 16.0;
-              b[s / 15] = 1 - along, b[(s / 15 + 1) % 3] = along;
+            if (s < 27) {
+              const double along = (s % 9 + 1) / 10.0;
+              b[s / 9] = 1 - along, b[(s / 9 + 1) % 3] = along;
             } else {
               const double inside[6][3] = {{.6, .2, .2}, {.2, .6, .2}, {.2, .2, .6}, {.4, .4, .2}, {.2, .4, .4}, {.4, .2, .4}};
-              std::copy(inside[s - 45], inside[s - 45] + 3, b);
+              std::copy(inside[s - 27], inside[s - 27] + 3, b);
             }
             geometry::Ambient v{0, 0, 0};
             double z = 0;
             for (int k = 0; k < 3; ++k) v = v + b[k] * flat.v[t[k]], z += b[k] * flat.z[t[k]];
             const Vector3 p = image_of(map, v, z);
             if (!in_picture(eye, project(eye, p))) continue;
-            const double off = s < 45 ? seen_distance(eye, p, drawn[s / 15], drawn[(s / 15 + 1) % 3]) : seen_distance(eye, p, drawn);
+            const double off = s < 27 ? seen_distance(eye, p, drawn[s / 9], drawn[(s / 9 + 1) % 3]) : seen_distance(eye, p, drawn);
             worst = std::max(worst, off);
           }
         }
@@ -148,7 +148,6 @@ TEST_CASE("every chord and every triangle lies within the tolerance, seen in the
   }
   CHECK(worst <= 0.25);
   CHECK(worst > 0.1);
-  WARN(of.name << ": worst " << worst << " px");
 }
 
 TEST_CASE("a part has no cracks inside: every edge has two sides or lies on the part's own border", "[bend]") {
@@ -219,7 +218,6 @@ TEST_CASE("neighbouring copies split their common wall alike and meet there", "[
   }
   CHECK(points > 100);
   CHECK(worst <= 1e-12);
-  WARN(of.name << ": " << points << " points, worst " << worst);
 }
 
 TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
@@ -247,7 +245,7 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
     auto eye = eye_at(room.room.space, r, phi, 0.4, 0.3, -0.1);
     eye.projection = scene::Projection::panorama;
     BendOptions fine;
-    fine.tolerance_px = 0.02;
+    fine.tolerance_px = 0.04;
     const Sight sight = sight_of(eye, fine);
     double area[4] = {0, 0, 0, 0}, turned = 0;
     for (const auto& copy : copies) {
