@@ -29,7 +29,8 @@ void compare(const place::PlacedRoom& placed, int rays, double steep, Random& ra
     const Hit fast = closest_triangle(scene, ray);
     ++tally.rays;
     const bool met = fast.target == Target::triangle, meets = slow.triangle != kNone;
-    tally.elsewhere += (with_others.target == Target::triangle) != met || (met && std::fabs(with_others.t - fast.t) > 1e-11 * (1 + fast.t));
+    const Hit alone = closest(scene, ray);  // walls included
+    tally.elsewhere += with_others.target != alone.target || std::fabs(with_others.t - alone.t) > 1e-11 * (1 + alone.t);
     tally.hits += meets;
     tally.missed += meets && !met;
     tally.false_hits += met && !meets;
