@@ -81,8 +81,9 @@ with folder() as name:
     before = sorted(os.listdir(where))
     done = run(['bash', '-c', f'ulimit -f 100; exec {ORBC} compile {OCTANT} -o {where}/large.glb'])
     check(done.returncode == 3 and sorted(os.listdir(where)) == before, 'a file that grows too large leaves nothing')
-    done = run(['bash', '-c', f'ulimit -v 150000; exec {ORBC} compile {OCTANT} --max-bounces 40 -o {where}/large.glb'])
-    check(done.returncode == 3 and sorted(os.listdir(where)) == before, f'too little memory is told: {done.stderr.decode()[:100]}')
+    if b'__asan_init' not in ORBC.read_bytes():   # the address sanitizer's shadow memory needs terabytes of addresses
+        done = run(['bash', '-c', f'ulimit -v 150000; exec {ORBC} compile {OCTANT} --max-bounces 40 -o {where}/large.glb'])
+        check(done.returncode == 3 and sorted(os.listdir(where)) == before, f'too little memory is told: {done.stderr.decode()[:100]}')
     done = orbc('compile', OCTANT, '--max-memory', '1MiB', '-o', where / 'x.glb')
     check(done.returncode == 1 and b'max_bounces' in done.stderr, 'the planner refuses, and names what fits')
     done = run(['bash', '-c', f'{ORBC} compile {OCTANT} -f pov -o - | head -c 10 >/dev/null; exit ${{PIPESTATUS[0]}}'])
