@@ -13,7 +13,7 @@ struct PlanOptions {
   std::uint64_t max_bytes = std::uint64_t{4} << 30;
 };
 
-/// What unfolding a scene will make, before it is made; what bending adds by splitting is told by bend::forecast.
+/// What unfolding a scene will make, before it is made; what bending adds by splitting is not in it: bend.too-dense guards that.
 struct Plan {
   Integer copies;                           ///< exact
   std::vector<Integer> copies_per_bounces;  ///< 0 … the last bounce that has copies
