@@ -22,7 +22,7 @@
 //    triangles finds (tests: 0 of 1,000,000 rays differ), and is watertight because `meet` is.
 // 4. Charts. S² shows less than a half in one gnomonic chart, and far charts of H² lose digits: chart.h makes one chart for each cluster of
 //    triangles (rooms with three and more corners: one; lune and hemisphere: two and more; E²: one). A ray walks through each chart's tree.
-// 5. Many rays at once: set up eight at a time, walked two at a time in turn, resolved four at a time in double (AVX2): about 1.4 times the
+// 5. Many rays at once: set up eight at a time, walked two at a time in turn, resolved four at a time in double (AVX2): about 1.5 times the
 //    rate of single rays.
 //
 // Figures (torus knot in right-angled rooms of equal size, 480,000 camera rays, per ray):
@@ -31,9 +31,9 @@
 //   S²    5.83    1.97     0.68            0.64    8.31    1.78     0.66            0.64
 //   E²    5.79    1.93     0.63            0.62    8.16    1.72     0.64            0.63
 //   H²    5.62    1.90     0.64            0.61    7.98    1.67     0.63            0.61
-// so a curved ray visits as many nodes as a straight one: the structure costs nothing, only the arithmetic of a node does. Memory 92 to 95
-// bytes a triangle (nodes 224 bytes for 8 children, blocks 416 bytes for 8 triangles, corners and indices in double for the last word); a
-// million triangles are built in 0.8 s of CPU time.
+// so a curved ray visits as many nodes as a straight one: the structure costs nothing, only the arithmetic of a node does. Memory 96 to 98
+// bytes a triangle of a mesh with shared corners (nodes 224 bytes for 8 children, blocks 448 bytes for 8 triangles, corners and indices in
+// double for the last word); a million triangles are built in 0.8 s of CPU time.
 #include <memory>
 #include <vector>
 

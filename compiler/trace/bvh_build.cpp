@@ -36,6 +36,9 @@ struct Range {
   std::size_t size() const { return end - begin; }
 };
 
+float down(double v) { return std::nextafter(static_cast<float>(v), -kNever); }
+float up(double v) { return std::nextafter(static_cast<float>(v), kNever); }
+
 constexpr int kBins = 16;
 
 float blocks_of(std::size_t n) { return static_cast<float>((n + 7) / 8); }
@@ -174,6 +177,7 @@ struct Builder {
     Block8 block;
     for (int lane = 0; lane < 8; ++lane) {
       const bool used = static_cast<std::size_t>(lane) < range.size();
+      geometry::Vector3 at[3];
       block.triangle[lane] = used ? prims[range.begin + static_cast<std::size_t>(lane)].triangle : kNone;
       for (int i = 0; i < 3; ++i) {
         geometry::Ambient x{1, 1e6 * (1 + chart.extent), 1e6 * (1 + chart.extent)};  // an unused lane: one point, far from every ray
@@ -187,7 +191,14 @@ struct Builder {
         block.y[i][lane] = static_cast<float>(x.y / x.w);
         block.z_by_w[i][lane] = static_cast<float>(z / x.w);
         block.by_w[i][lane] = static_cast<float>(1 / x.w);
+        at[i] = {x.x / x.w, x.y / x.w, z};
       }
+      double size = 0;
+      for (int i = 0; i < 3; ++i) {
+        const geometry::Vector3 edge = at[i] - at[(i + 1) % 3];
+        size = std::max({size, std::hypot(edge.x, edge.y), std::fabs(edge.z)});
+      }
+      block.size[lane] = up(size);
     }
     return block;
   }
@@ -269,9 +280,6 @@ std::uint32_t append(Chart& chart, const Tree& tree) {
   chart.blocks.insert(chart.blocks.end(), tree.blocks.begin(), tree.blocks.end());
   return tree.nodes.empty() ? kBlock | block : node;
 }
-
-float down(double v) { return std::nextafter(static_cast<float>(v), -kNever); }
-float up(double v) { return std::nextafter(static_cast<float>(v), kNever); }
 
 Prim prim_of(const Soup& soup, const Chart& chart, std::uint32_t triangle) {
   Prim prim;

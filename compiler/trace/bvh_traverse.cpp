@@ -5,6 +5,7 @@
 // AVX-512 was measured to gain nothing here (nor in the performance study: a node has eight children).
 #define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -118,7 +119,7 @@ struct Walker {
   }
 
   /// In double. Makes: whether it is met before the best so far.
-  HWY_NOINLINE bool meet(const Walk& walk, std::uint32_t triangle, bool sure, double guess) {
+  HWY_INLINE bool meet(const Walk& walk, std::uint32_t triangle, bool sure, double guess) {
     const auto& v = walk.soup->triangles[triangle];
     const Vertex* vertices = walk.soup->vertices.data();
     if (!planned) plane = plane_of(kSpace, *source), planned = true;
@@ -137,11 +138,11 @@ struct Walker {
   }
 
   /// False: any hit was wanted and is found.
-  HWY_INLINE bool visit_block(const Walk& walk, const LeafConstants& leaf, std::uint32_t child) {
+  HWY_INLINE bool visit_block(const Walk& walk, std::uint32_t child) {
     const Block8& block = walk.chart->blocks[child & ~kBlock];
     if constexpr (kCount) ++walk.counts->blocks;
     Verdict verdict;
-    judge<kSpace>(block, *walk.chart, ray, leaf, verdict);
+    judge<kSpace>(block, *walk.chart, ray, verdict);
     for (std::uint32_t bits = verdict.candidates; bits; bits &= bits - 1) {
       const int lane = lowest_bit(bits);
       const std::uint32_t triangle = block.triangle[lane];
@@ -158,6 +159,7 @@ struct Walker {
         if (pending.triangle != kNone && near > pending.farther) continue;
         if (pending.triangle == kNone || far < pending.nearer) {
           pending = {triangle, guess, near, far};
+          hwy::Prefetch(&walk.soup->triangles[triangle]);  // of nodes and blocks it was measured to cost more than it saves
           ray.reach = std::min(ray.reach, far);
           continue;
         }
@@ -175,7 +177,6 @@ struct Walker {
 
 template <Space kSpace, int kTerms, bool kAny, bool kCount>
 bool walk_one(const Walk& walk) {
-  const LeafConstants leaf{static_cast<float>(walk.height_bound), walk.chart->largest_w};
   Walker<kSpace, kTerms, kAny, kCount> walker;
   walker.ray = chart_ray<kSpace>(*walk.chart, *walk.ray, walk.height_bound, walk.best->t);
   if (walker.ray.misses) return false;
@@ -183,7 +184,7 @@ bool walk_one(const Walk& walk) {
   do {
     bool touches = true;
     while (touches && !(way.child & kBlock)) touches = walker.visit_node(walk, way);
-    if (touches && !walker.visit_block(walk, leaf, way.child)) return true;
+    if (touches && !walker.visit_block(walk, way.child)) return true;
   } while (walker.pop(way));
   walker.resolve(walk);
   return walker.found;
@@ -193,7 +194,6 @@ bool walk_one(const Walk& walk) {
 /// for while the others compute.
 template <Space kSpace, int kTerms, bool kAny, bool kCount>
 bool walk_many(const Walk& walk) {
-  const LeafConstants leaf{static_cast<float>(walk.height_bound), walk.chart->largest_w};
   constexpr int kTurns = 2;  // more gained nothing: their states fall out of the registers and the first-level cache
   constexpr std::size_t kBatch = 32;
   struct Turn {
@@ -228,7 +228,7 @@ bool walk_many(const Walk& walk) {
         if (!turn.active) continue;
         bool more = true;
         if (turn.way.child & kBlock) {
-          more = turn.walker.visit_block(walk, leaf, turn.way.child) && turn.walker.pop(turn.way);
+          more = turn.walker.visit_block(walk, turn.way.child) && turn.walker.pop(turn.way);
         } else if (!turn.walker.visit_node(walk, turn.way)) {
           more = turn.walker.pop(turn.way);
         }
@@ -283,7 +283,7 @@ BvhHit Bvh::closest(const Ray& ray, double t_max) const {
 
 void Bvh::closest_many(const Ray* rays, BvhHit* hits, std::size_t count) const {
   for (const Chart& chart : charts_) HWY_DYNAMIC_DISPATCH(walk_closest)({space_, &soup_, &chart, rays, height_, hits, nullptr, count});
-  for (std::size_t i = 0; i < count; ++i) try_large(rays[i], hits[i]);
+  for (std::size_t i = 0; i < count && !large_.empty(); ++i) try_large(rays[i], hits[i]);
 }
 
 BvhHit Bvh::closest_counted(const Ray& ray, double t_max, BvhCounts& counts) const {

@@ -155,6 +155,7 @@ void add_leaf_bounds(Space space, Chart& chart) {
   const double steepest = space == Space::spherical ? 1 + end * end : 1;
   const double sharpest = space == Space::spherical ? 2 * end * (1 + end * end) : 0.77;  // of T″ = −2κ̂ T(1 + κT²); H²: at tanh² = 1/3
   const double ratio = space == Space::spherical ? 1 / std::cos(chart.radius) : std::cosh(chart.radius);
+  chart.ratio = static_cast<float>(1.001 * ratio);
   chart.steepest = static_cast<float>(1.01 * steepest);
   chart.bend_of_tan = static_cast<float>(1.05 * sharpest * ratio * ratio / 8);
   chart.bend_of_height = static_cast<float>(1.05 * steepest * 2 * ratio * double(chart.largest_w) / 8);

@@ -16,6 +16,7 @@ struct Chart {
   double nearest_foot2 = 0;         ///< cosκ²(radius): geodesics whose foot lies farther out miss the chart
   float extent = 0;                 ///< largest |(x, y)/w| of a corner
   float largest_w = 1;              ///< of a corner: 1 on S², cosh(radius) on H²
+  float ratio = 1;                  ///< bound of the ratio of two corners' w
   int terms = 1;                    ///< of the odd polynomial
   float poly[7] = {1, 0, 0, 0, 0, 0, 0};  ///< tanκ(a) ≈ Σ poly[k]·a^(2k+1), increasing on all of ℝ
   float poly_error = 0;             ///< its largest error for |a| ≤ radius, in the float evaluation

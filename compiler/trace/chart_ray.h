@@ -19,7 +19,7 @@ struct ChartRay {
   float scale[2] = {0, 0};          ///< t = plane·scale − near_offset | far_offset
   float near_offset[2] = {0, 0}, far_offset[2] = {0, 0};
   float slope = 0, near_height = 0, far_height = 0;  ///< argument of tanκ = z·slope − near_height | far_height
-  float steepness = 0;              ///< |slope|
+  float steepness = 0, stretch = 1; ///< |slope| · Chart::ratio, and change of t per width of a triangle
   float start = 0;                  ///< t where the ray begins (a little before)
   float reach = kNever;             ///< t where it ends (a little after)
   float surely_after = 0, surely_before = 0;  ///< what lies between is met, whatever the rounding
@@ -126,7 +126,8 @@ template <geometry::Space kSpace>
   }
   const float s0 = static_cast<float>(out.s0);
   out.slope = scale[2];
-  out.steepness = std::fabs(scale[2]);
+  out.steepness = std::fabs(scale[2]) * chart.ratio;
+  out.stretch = static_cast<float>(r);
   out.near_height = near_offset[2] - s0;
   out.far_height = far_offset[2] - s0;
   out.height = at[2] * scale[2] - s0;

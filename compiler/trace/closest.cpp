@@ -48,12 +48,20 @@ Hit closest(const TraceScene& scene, const Ray& ray) {
 }
 
 std::vector<Hit> closest(const TraceScene& scene, std::span<const Ray> rays) {
-  std::vector<Hit> hits(rays.size());
-  std::vector<BvhHit> found(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) found[i].t = scene.all_inside ? longest_in_room(scene, rays[i]) : exit_of(scene.prism, rays[i]).t;
-  scene.objects->closest_many(rays.data(), found.data(), rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i)
-    hits[i] = found[i].triangle != kNone ? hit_of_triangle(scene.objects->soup(), found[i]) : hit_of_exit(exit_of(scene.prism, rays[i]));
+  constexpr std::size_t kPiece = 64;  // small enough to stay in the first-level cache
+  std::vector<Hit> hits;
+  hits.reserve(rays.size());
+  BvhHit found[kPiece];
+  for (std::size_t first = 0; first < rays.size(); first += kPiece) {
+    const std::size_t count = std::min(kPiece, rays.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      found[i].triangle = kNone;
+      found[i].t = scene.all_inside ? longest_in_room(scene, rays[first + i]) : exit_of(scene.prism, rays[first + i]).t;
+    }
+    scene.objects->closest_many(&rays[first], found, count);
+    for (std::size_t i = 0; i < count; ++i)
+      hits.push_back(found[i].triangle != kNone ? hit_of_triangle(scene.objects->soup(), found[i]) : hit_of_exit(exit_of(scene.prism, rays[first + i])));
+  }
   return hits;
 }
 

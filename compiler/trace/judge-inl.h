@@ -94,32 +94,26 @@ HWY_INLINE V pade(V kappa, V a) {
   return hn::Mul(hn::Mul(a, over), by(under));
 }
 
-struct LeafConstants {
-  float height_bound, largest_w;
-};
-
 template <Space kSpace>
-HWY_INLINE Cut cut_edge(const ChartRay& ray, const LeafConstants& leaf, const Corner& i, const Corner& j) {
+HWY_INLINE Cut cut_edge(const ChartRay& ray, V size, const Corner& i, const Corner& j) {
   const D d;
   const V hi = hn::Abs(i.h), hj = hn::Abs(j.h);
   const V by_sum = by(hn::Add(hi, hj));
-  const V weight_error = hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum);
+  const V blur = hn::Mul(hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum), size);  // how far the crossing may really be along the edge
   Cut cut;
   cut.t = hn::Mul(by_sum, hn::MulAdd(hj, i.t, hn::Mul(hi, j.t)));
-  cut.t_error = hn::MulAdd(weight_error, hn::Abs(hn::Sub(i.t, j.t)), hn::Set(d, ray.t_error));
+  cut.t_error = hn::MulAdd(blur, hn::Set(d, ray.stretch), hn::Set(d, ray.t_error));
   V z = hn::MulAdd(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
-  V dz = hn::Abs(hn::Sub(i.z_by_w, j.z_by_w));
   if constexpr (kSpace != Space::euclidean) {
     const V w = hn::MulAdd(hj, i.by_w, hn::Mul(hi, j.by_w));
     z = hn::Mul(z, by(w));
     cut.w = hn::Mul(w, by_sum);
-    dz = hn::Mul(hn::Set(d, leaf.largest_w), hn::MulAdd(hn::Set(d, leaf.height_bound), hn::Abs(hn::Sub(i.by_w, j.by_w)), dz));
   } else {
     z = hn::Mul(z, by_sum);
     cut.w = by_sum;
   }
   cut.a = hn::MulSub(z, hn::Set(d, ray.slope), hn::Set(d, ray.height));
-  cut.a_error = hn::MulAdd(hn::Mul(weight_error, dz), hn::Set(d, ray.steepness), hn::Set(d, ray.slope_error));
+  cut.a_error = hn::MulAdd(blur, hn::Set(d, ray.steepness), hn::Set(d, ray.slope_error));
   return cut;
 }
 
@@ -142,7 +136,7 @@ HWY_INLINE std::uint32_t bits_of(M mask) {
 /// nearer to 0 than the curve in between can bend, or both crossings surely lie beyond the chart's heights, or beside the ray's ends. It is
 /// sure when the signs differ by so much that no rounding and no bend (f′ = 0 needs |f₁ − f₂| ≤ max|f″| = 8 bends) matters.
 template <Space kSpace>
-HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, const LeafConstants& leaf, Verdict& verdict) {
+HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, Verdict& verdict) {
   const D d;
   verdict.candidates = verdict.sure = 0;
   for (std::size_t lane = 0; lane < 8; lane += hn::Lanes(d)) {
@@ -161,8 +155,9 @@ HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& r
     const M left0 = hn::Ge(corner[0].h, zero), left1 = hn::Ge(corner[1].h, zero), left2 = hn::Ge(corner[2].h, zero);
     const V nearest = hn::Min(hn::Abs(corner[0].h), hn::Min(hn::Abs(corner[1].h), hn::Abs(corner[2].h)));
     const M unsure = hn::Le(nearest, h_error);  // a corner on the ray's line: which edges are cut is not known
-    const Cut one = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left1), corner[0], corner[2]), corner[1]);
-    const Cut two = cut_edge<kSpace>(ray, leaf, pick(hn::Xor(left0, left2), corner[0], corner[1]), corner[2]);
+    const V size = hn::Load(d, block.size + lane);
+    const Cut one = cut_edge<kSpace>(ray, size, pick(hn::Xor(left0, left1), corner[0], corner[2]), corner[1]);
+    const Cut two = cut_edge<kSpace>(ray, size, pick(hn::Xor(left0, left2), corner[0], corner[1]), corner[2]);
     const V farther = hn::Max(hn::Add(one.t, one.t_error), hn::Add(two.t, two.t_error));
     const V nearer = hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error));
     const M late = hn::Gt(nearer, hn::Set(d, ray.reach));

@@ -19,9 +19,10 @@ inline constexpr float kNever = 1e30f;  ///< an empty box: lower planes here, up
 struct alignas(32) Block8 {
   float x[3][8], y[3][8];
   float z_by_w[3][8], by_w[3][8];
+  float size[8];                    ///< largest difference of two corners, in the chart or in z
   std::uint32_t triangle[8];
 };
-static_assert(sizeof(Block8) == 416);
+static_assert(sizeof(Block8) == 448);
 
 inline constexpr std::uint32_t kNone = ~0u;
 inline constexpr int kDeepest = 72;        ///< levels of a tree; the builder halves by count when SAH would go deeper than half of it

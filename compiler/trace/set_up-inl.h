@@ -165,7 +165,8 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
       ray.far_offset[a] = far_offset[a][lane];
     }
     ray.slope = scale[2][lane];
-    ray.steepness = std::fabs(ray.slope);
+    ray.steepness = std::fabs(ray.slope) * chart.ratio;
+    ray.stretch = feet.r[lane];
     ray.near_height = near_offset[2][lane] - s;
     ray.far_height = far_offset[2][lane] - s;
     ray.height = at_scaled[2][lane] - s;
