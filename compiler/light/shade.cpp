@@ -56,18 +56,6 @@ Way way_to(Space space, const Position& from, const Position& to, int sheet) {
   return way;
 }
 
-const trace::MirrorArea* mirror_at(const trace::TraceScene& scene, const trace::Ray& ray, const trace::Exit& exit) {
-  if (exit.surface == trace::kFloor) return scene.floor_mirror ? &*scene.floor_mirror : nullptr;
-  if (exit.surface == trace::kCeiling) return scene.ceiling_mirror ? &*scene.ceiling_mirror : nullptr;
-  const auto& areas = scene.mirrors[static_cast<std::size_t>(exit.surface)];
-  if (areas.empty()) return nullptr;
-  const Position at = trace::position_at(scene.prism.space, ray, exit.t);
-  const double s = trace::arc_on_wall(scene.prism.space, scene.prism.walls[static_cast<std::size_t>(exit.surface)], at.floor);
-  for (const trace::MirrorArea& area : areas)
-    if (s >= area.span[0] && s <= area.span[1] && at.z >= area.height[0] && at.z <= area.height[1]) return &area;
-  return nullptr;
-}
-
 /// A shadow ray's way through the room: its pieces between mirrors, as long as they meet no plain wall.
 struct ShadowPath {
   static constexpr int kMost = 32;
@@ -90,7 +78,7 @@ ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double
       path.complete = true;
       return path;
     }
-    const trace::MirrorArea* mirror = mirror_at(scene, ray, exit);
+    const trace::MirrorArea* mirror = trace::mirror_at(scene, ray, exit.t, exit.surface);
     if (!mirror || path.pieces > bounces || path.pieces == ShadowPath::kMost) return path;
     path.weight = path.weight * mirror->weight;
     if (exit.surface >= 0) path.walls[static_cast<std::size_t>(path.crossed++)] = static_cast<std::int16_t>(exit.surface);

@@ -7,17 +7,11 @@
 namespace orbc::trace {
 namespace {
 
-const MirrorArea* mirror_at(const TraceScene& scene, const Ray& ray, const Hit& hit) {
-  if (hit.target == Target::floor) return scene.floor_mirror ? &*scene.floor_mirror : nullptr;
-  if (hit.target == Target::ceiling) return scene.ceiling_mirror ? &*scene.ceiling_mirror : nullptr;
-  if (hit.target != Target::wall) return nullptr;
-  const auto& areas = scene.mirrors[hit.wall];
-  if (areas.empty()) return nullptr;
-  const auto at = position_at(scene.prism.space, ray, hit.t);
-  const double s = arc_on_wall(scene.prism.space, scene.prism.walls[hit.wall], at.floor);
-  for (const MirrorArea& area : areas)
-    if (s >= area.span[0] && s <= area.span[1] && at.z >= area.height[0] && at.z <= area.height[1]) return &area;
-  return nullptr;
+/// As Exit::surface; kNoSurface for what is no part of the prism's border.
+constexpr int kNoSurface = -100;
+int surface_of(const Hit& hit) {
+  if (hit.target == Target::wall) return hit.wall;
+  return hit.target == Target::floor ? kFloor : hit.target == Target::ceiling ? kCeiling : kNoSurface;
 }
 
 double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
@@ -39,7 +33,8 @@ bool goes_on(const TraceScene& scene, const FollowOptions& options, const Hit& h
     path.hit.t = options.max_length - path.length;
   }
   path.length += path.hit.t;
-  const MirrorArea* mirror = mirror_at(scene, ray, path.hit);
+  const int surface = surface_of(path.hit);
+  const MirrorArea* mirror = surface == kNoSurface ? nullptr : mirror_at(scene, ray, path.hit.t, surface);
   if (!mirror) return false;
   const scene::Color weight = path.weight * mirror->weight;
   if (path.bounces >= options.max_bounces || largest(weight) < options.min_weight) {
@@ -48,13 +43,24 @@ bool goes_on(const TraceScene& scene, const FollowOptions& options, const Hit& h
   }
   path.weight = weight;
   ++path.bounces;
-  const int surface = hit.target == Target::wall ? hit.wall : hit.target == Target::floor ? kFloor : kCeiling;
   if (options.record_word) path.word.push_back(static_cast<std::int16_t>(surface));
   ray = surface >= 0 ? reflected_in_wall(scene.prism, ray, hit.t, surface) : reflected_in_plane(scene.prism, ray, hit.t, surface);
   return true;
 }
 
 }  // namespace
+
+const MirrorArea* mirror_at(const TraceScene& scene, const Ray& ray, double t, int surface) {
+  if (surface == kFloor) return scene.floor_mirror ? &*scene.floor_mirror : nullptr;
+  if (surface == kCeiling) return scene.ceiling_mirror ? &*scene.ceiling_mirror : nullptr;
+  const auto& areas = scene.mirrors[static_cast<std::size_t>(surface)];
+  if (areas.empty()) return nullptr;
+  const auto at = position_at(scene.prism.space, ray, t);
+  const double s = arc_on_wall(scene.prism.space, scene.prism.walls[static_cast<std::size_t>(surface)], at.floor);
+  for (const MirrorArea& area : areas)
+    if (s >= area.span[0] && s <= area.span[1] && at.z >= area.height[0] && at.z <= area.height[1]) return &area;
+  return nullptr;
+}
 
 Path follow(const TraceScene& scene, Ray ray, const FollowOptions& options) {
   Path path = path_at_start(options);

@@ -36,6 +36,9 @@ struct Path {
 /// The same for many rays with the same options, faster (see closest); paths in the order of the rays.
 [[nodiscard]] std::vector<Path> follow(const TraceScene& scene, std::span<const Ray> rays, const FollowOptions& options = {});
 
+/// The mirror that a ray meets at path length t on a surface of the prism (wall from 0, kFloor, kCeiling); none where the surface is plain.
+[[nodiscard]] const MirrorArea* mirror_at(const TraceScene& scene, const Ray& ray, double t, int surface);
+
 /// What is seen at the end of a path.
 struct SurfacePoint {
   geometry::Position at;
