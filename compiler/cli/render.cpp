@@ -46,6 +46,7 @@ int render_elsewhere(const RenderArguments& a, const Common& common) {
   if (a.engine == "povray") (void)side_of(a.samples);
   const auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;
+  print(opened->notes, common);
   const TemporaryFolder folder;
   CompileArguments exported = a.compile;
   exported.output = (folder.path() / (a.engine == "povray" ? "scene.pov" : "scene.glb")).string();

@@ -43,7 +43,8 @@ Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
   append(opened.notes, located(furnished->warnings, opened.scene.span));
   const auto lamps = light::hang_lamps(opened.scene, *room);
   if (!lamps) return located(lamps.error(), opened.scene.span);
-  append(opened.notes, lamps.value().warnings);
+  append(opened.notes, located(lamps.value().warnings, opened.scene.span));
+  if (auto inside = light::lamps_inside_objects(opened.scene, *lamps, furnished->room); !inside.empty()) return inside;
   light::add_fixtures(opened.scene, *lamps, furnished->room);
   opened.room = std::make_unique<place::PlacedRoom>(std::move(furnished->room));
   const auto eye = place::make_eye(opened.scene, *opened.room);

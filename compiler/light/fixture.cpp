@@ -8,6 +8,7 @@
 #include "compiler/light/frame.h"
 #include "compiler/light/lamp.h"
 #include "compiler/mesh/primitives.h"
+#include "compiler/place/eye.h"
 
 namespace orbc::light {
 namespace {
@@ -88,6 +89,20 @@ place::PlacedMesh tube(Space space, const HungLamp& lamp, const scene::Lamp& spe
 
 int lamp_of(const place::PlacedMesh& part) {
   return part.kind == place::PartKind::object && part.wall <= kFirstMark ? kFirstMark - part.wall : -1;
+}
+
+Diagnostics lamps_inside_objects(const scene::Scene& scene, const HungLamps& lamps, const place::PlacedRoom& room) {
+  Diagnostics errors;
+  for (std::size_t i = 0; i < lamps.lamps.size(); ++i) {
+    const place::PlacedMesh* around = place::object_around(room, lamps.lamps[i].centre);
+    if (!around) continue;
+    const scene::Lamp& lamp = scene.lamps[i];
+    errors.push_back(make_error("light.lamp-inside-object",
+                                fmt::format("lamp {} hangs inside {}, which would keep all its light", i + 1, around->name),
+                                "move the lamp or the object; a body that shall glow itself takes `material: {kind: emissive}`",
+                                lamp.place.span.source ? lamp.place.span : lamp.span));
+  }
+  return errors;
 }
 
 void add_fixtures(const scene::Scene& scene, const HungLamps& lamps, place::PlacedRoom& room) {

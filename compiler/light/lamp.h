@@ -40,6 +40,10 @@ struct HungLamps {
 };
 [[nodiscard]] Result<HungLamps> hang_lamps(const scene::Scene& scene, const room::Room& room);
 
+/// Lamps whose middle is inside a closed object, which would keep all their light. In: the room before add_fixtures.
+/// Diagnostics: light.lamp-inside-object (names the object).
+[[nodiscard]] Diagnostics lamps_inside_objects(const scene::Scene& scene, const HungLamps& lamps, const place::PlacedRoom& room);
+
 /// Puts the bodies of the visible lamps into the room, as its last parts: spheres, plates and tubes that glow and cast no shadow. Points
 /// and spots have none.
 void add_fixtures(const scene::Scene& scene, const HungLamps& lamps, place::PlacedRoom& room);

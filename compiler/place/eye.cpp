@@ -64,10 +64,8 @@ Diagnostics wrong_place(const PlacedRoom& placed, const Position& eye, const Sou
   if (!(eye.z > 0) || !(eye.z < placed.height))
     return {make_error("place.eye-outside-room", fmt::format("the eye is not between floor and ceiling: its height is {}", to_text(eye.z)),
                        fmt::format("the room is {} high", to_text(placed.height)), span)};
-  for (const PlacedMesh& part : placed.parts)
-    if ((part.kind == PartKind::object || part.kind == PartKind::frame) && is_inside(part, eye))
-      return {
-          make_error("place.eye-inside-object", fmt::format("the eye stands inside {}", part.name), "move the eye or the object", span)};
+  if (const PlacedMesh* around = object_around(placed, eye))
+    return {make_error("place.eye-inside-object", fmt::format("the eye stands inside {}", around->name), "move the eye or the object", span)};
   return {};
 }
 
@@ -193,6 +191,12 @@ std::optional<std::array<double, 2>> pixel_of(const Eye& eye, const Vector3& dir
 double pixels_per_radian(const Eye& eye) {
   if (eye.projection == Projection::perspective) return eye.width / 2.0 / std::tan(eye.fov.radians / 2);
   return eye.width / (eye.projection == Projection::panorama ? 2 * kPi : eye.fov.radians);
+}
+
+const PlacedMesh* object_around(const PlacedRoom& room, const Position& at) {
+  for (const PlacedMesh& part : room.parts)
+    if ((part.kind == PartKind::object || part.kind == PartKind::frame) && is_inside(part, at)) return &part;
+  return nullptr;
 }
 
 Result<Eye> make_eye(const scene::Scene& scene, const PlacedRoom& placed) {

@@ -8,6 +8,7 @@
 
 namespace orbc::place {
 
+struct PlacedMesh;
 struct PlacedRoom;
 
 /// The eye and its camera. Eye coordinates: the log map at the eye with axes x, y of the translated room frame, z up, origin on the floor
@@ -43,5 +44,9 @@ struct Eye {
 /// Exact:       inside the room by exact predicates; inside an object by the parity of the triangles above and below the eye, their
 ///              footprints tested exactly.
 [[nodiscard]] Result<Eye> make_eye(const scene::Scene& scene, const PlacedRoom& room);
+
+/// The object or frame around a position: the vertical line through it meets an odd number of its triangles above, and an odd number below;
+/// none: nullptr. Exact: the footprints; heights are measured.
+[[nodiscard]] const PlacedMesh* object_around(const PlacedRoom& room, const geometry::Position& at);
 
 }  // namespace orbc::place

@@ -4,9 +4,11 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import sys
 import time
+import zlib
 
 from helpers import BIN, ROOT, check, finish, folder, run
 
@@ -72,6 +74,39 @@ with folder() as name:
     done = orbc('compile', bad, '-o', where / 'bad.glb')
     check(done.returncode == 1 and b'mesh.missing-file' in done.stderr and not (where / 'bad.glb').exists(), 'a wrong scene writes nothing')
     check(orbc('compile', where / 'none.yaml', '-o', where / 'x.glb').returncode == 1, 'a missing scene')
+
+    # lights and materials that cannot be: file, line, caret, hint, and nothing written
+    def chunk(kind, data):
+        return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+
+    (where / 'bomb.png').write_bytes(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', 20000, 20000, 8, 2, 0, 0, 0)) + chunk(b'IDAT', zlib.compress(bytes(1000))) + chunk(b'IEND', b''))
+    ball = 'objects:\n  - {sphere: {radius: 0.2}, at: {polar: [0, 0deg], z: 0.4}, material: %s}\n'
+    for what, part, line, code in (
+            ('a lamp without power', 'lights:\n  - {at: centre, power: 0}', 5, 'scene.out-of-range'),
+            ('a lamp of negative power', 'lights:\n  - {at: centre, power: -1}', 5, 'scene.out-of-range'),
+            ('a lamp of infinite power', 'lights:\n  - {at: centre, power: .inf}', 5, 'scene.not-finite'),
+            ('a lamp whose power is no number', 'lights:\n  - {at: centre, power: .nan}', 5, 'scene.not-finite'),
+            ('a lamp in a wall', 'lights:\n  - {at: {walls: {1: 0.05, 2: 0.5}}, radius: 0.1}', 5, 'light.lamp-in-wall'),
+            ('a lamp through the ceiling', 'lights:\n  - {at: {polar: [0, 0deg], z: 0.95}, radius: 0.1}', 5, 'light.lamp-in-wall'),
+            ('a lamp outside of the room', 'lights:\n  - {at: {polar: [5, 0deg]}}', 5, 'place.outside-room'),
+            ('a lamp inside of an object', ball % 'coral' + 'lights:\n  - {at: {polar: [0, 0deg], z: 0.6}}', 7, 'light.lamp-inside-object'),
+            ('a roughness above 1', ball % '{kind: metal, roughness: 1.5}', 5, 'scene.out-of-range'),
+            ('an index below 1', ball % '{kind: glass, index: 0.5}', 5, 'scene.out-of-range'),
+            ('a cell of 0', ball % '{preset: marble, cell: 0}', 5, 'scene.out-of-range'),
+            ('a texture of 20,000 pixels a side', ball % '{texture: bomb.png}', 5, 'mesh.image-too-big')):
+        bad.write_text(f'orbc: 1\norbifold: "*2222"\nroom: {{height: 1}}\n{part}\ncamera: {{at: {{polar: [0.7, 225deg]}}}}\n')
+        for command in (['compile', bad, '-o', where / 'bad.pov'], ['trace', bad, '-o', where / 'bad.png'], ['check', bad]):
+            done = orbc(*command)
+            told = done.stderr.decode()
+            check(done.returncode == 1 and f'bad.yaml:{line}:' in told and code in told and '^' in told and not list(where.glob('bad.p*')) and not list(where.glob('bad-*')),
+                  f'{command[0]} refuses {what}: {told.splitlines()[0] if told else ""}')
+
+    # warnings are told by every command that opens a scene
+    bad.write_text('orbc: 1\norbifold: "*2222"\nlights:\n  - {at: centre, kind: point, radius: 0.2}\n')
+    for command in (['compile', bad, '-o', where / 'warned.glb', '--max-bounces', '1'], ['trace', bad, '-o', where / 'warned.png', '--size', '8x6'], ['check', bad]):
+        done = orbc(*command)
+        check(done.returncode == 0 and b'warning[scene.no-effect]' in done.stderr, f'{command[0]} prints warnings')
+        check(b'warning' not in orbc(*command, '--quiet').stderr, f'{command[0]} --quiet does not')
 
     # machine errors are 3 and leave nothing behind
     check(orbc('compile', OCTANT, '-o', where / 'no/such/folder.glb').returncode == 3, 'no such folder')
