@@ -20,11 +20,19 @@ namespace {
 
 using geometry::Isometry;
 
+/// A part of a model: a net and its uv.
+struct ModelPart {
+  std::size_t net = 0;
+  const Uv* uv = nullptr;
+};
+
 /// What is the same for all copies.
 struct Work {
   const std::vector<cover::Copy>& copies;
-  std::vector<PartNet> nets;
-  std::map<int, std::vector<std::unique_ptr<OwnPart>>> storeys;   // by number; those above and below the room's own
+  const std::vector<std::uint32_t>& model_of_copy;
+  std::vector<PartNet> nets;                                      // of each mesh once
+  std::vector<std::vector<ModelPart>> models;
+  std::map<int, std::vector<std::unique_ptr<OwnPart>>> storeys;   // by number; those above and below the room's own; nets that are used there
   Isometry eye_from_cover, eye_from_room;
   Sight sight;
   BendOptions options;
@@ -54,6 +62,10 @@ bool colours_vary(const place::PlacedRoom& room, const place::PlacedMesh& mesh) 
   return false;
 }
 
+const std::vector<ModelPart>& model_of(const Work& work, std::size_t copy) {
+  return work.models[work.model_of_copy.empty() ? 0 : work.model_of_copy[copy]];
+}
+
 CopyMap copy_map(const Work& work, const cover::Copy& copy) {
   const Isometry eye_from_copy = work.eye_from_cover * copy.cover_from_room;
   return {work.options.view, {eye_from_copy.space, geometry::matrix(eye_from_copy), copy.sheet}};
@@ -67,20 +79,25 @@ bool is_drawn(const Work& work, const PartNet& net, const cover::Copy& copy) {
 }
 
 /// The parts of one copy: those of its storey, cut to its wedge. Made anew for each pass, which gives the same.
+struct CopyPart {
+  const PartNet* net = nullptr;
+  const Uv* uv = nullptr;
+};
 class CopyParts {
  public:
-  CopyParts(const Work& work, const cover::Copy& copy) {
+  CopyParts(const Work& work, std::size_t index) {
+    const cover::Copy& copy = work.copies[index];
     const auto storey = work.storeys.find(copy.storey.number);
     // Wedges are seen from the eye, whatever the view.
     const LogMap seen{work.eye_from_room.space, geometry::matrix(work.eye_from_room * copy.cover_from_room), copy.sheet};
-    for (std::size_t i = 0; i < work.nets.size(); ++i) {
-      const PartNet& net = storey == work.storeys.end() ? work.nets[i] : storey->second[i]->net;
+    for (const ModelPart& part : model_of(work, index)) {
+      const PartNet& net = storey == work.storeys.end() ? work.nets[part.net] : storey->second[part.net]->net;
       if (!is_drawn(work, net, copy)) continue;
       const InWedge place = copy.wedge ? place_in(*copy.wedge, seen, net) : InWedge::all;
-      if (place == InWedge::all) parts_.push_back(&net);
+      if (place == InWedge::all) parts_.push_back({&net, part.uv});
       if (place != InWedge::some) continue;
-      own_.push_back(clipped(*copy.wedge, seen, net));
-      if (!own_.back()->mesh.triangles.empty()) parts_.push_back(&own_.back()->net);
+      own_.push_back(clipped(*copy.wedge, seen, net, *part.uv));
+      if (!own_.back()->mesh.triangles.empty()) parts_.push_back({&own_.back()->net, &own_.back()->uv});
     }
   }
   [[nodiscard]] auto begin() const { return parts_.begin(); }
@@ -88,14 +105,14 @@ class CopyParts {
 
  private:
   std::vector<std::unique_ptr<OwnPart>> own_;
-  std::vector<const PartNet*> parts_;
+  std::vector<CopyPart> parts_;
 };
 
-CopyCount count_copy(const Work& work, const cover::Copy& copy, std::uint64_t most, std::atomic<std::int64_t>& store) {
+CopyCount count_copy(const Work& work, std::size_t index, std::uint64_t most, std::atomic<std::int64_t>& store) {
   CopyCount count;
   std::int64_t bytes = 0;
-  const CopyMap map = copy_map(work, copy);
-  for (const PartNet* part : CopyParts(work, copy)) {
+  const CopyMap map = copy_map(work, work.copies[index]);
+  for (const auto& [part, uv] : CopyParts(work, index)) {
     const PartNet& net = *part;
     count.vertices += net.points.w.size();
     const double bound = error_bound(map, work.sight, net);
@@ -104,7 +121,7 @@ CopyCount count_copy(const Work& work, const cover::Copy& copy, std::uint64_t mo
       count.worst = std::max(count.worst, bound);
       continue;
     }
-    Tessellation fine = tessellate(map, work.sight, net, most);
+    Tessellation fine = tessellate(map, work.sight, net, *uv, most);
     count.vertices += fine.vertices.size();
     count.triangles += fine.triangles.size();
     count.worst = std::max(count.worst, fine.worst);
@@ -121,22 +138,23 @@ CopyCount count_copy(const Work& work, const cover::Copy& copy, std::uint64_t mo
 /// Writes the pieces of one copy at their places.
 class Writer {
  public:
-  Writer(const Work& work, const cover::Copy& copy, const BentRange& range, const std::vector<Tessellation>& kept, BentCover& out)
-      : work_(work), map_(copy_map(work, copy)), out_(out), vertex_(range.first_vertex), index_(range.first_index) {
+  Writer(const Work& work, std::size_t copy_index, const BentRange& range, const std::vector<Tessellation>& kept, BentCover& out)
+      : work_(work), map_(copy_map(work, work.copies[copy_index])), out_(out), vertex_(range.first_vertex), index_(range.first_index) {
+    const cover::Copy& copy = work.copies[copy_index];
     // An odd number of reflections turns triangles inside out, and so does going round the sphere to the far side.
     turned_ = (copy.cover_from_room.reversing != (copy.sheet % 2 == 1)) != (copy.storey.sign < 0);
     std::size_t split = 0;
-    for (const PartNet* part : CopyParts(work, copy)) {
+    for (const auto& [part, uv] : CopyParts(work, copy_index)) {
       const PartNet& net = *part;
       if (error_bound(map_, work.sight, net) <= 1) {
         write_points(net.points);
-        write_uv(*net.uv);
+        write_uv(*uv);
         write_triangles(net.mesh->triangles);
         vertex_ += net.points.w.size();
       } else if (split < kept.size()) {
-        write_fine(net, kept[split++]);
+        write_fine(net, *uv, kept[split++]);
       } else {
-        write_fine(net, tessellate(map_, work.sight, net, std::numeric_limits<std::uint64_t>::max() / 4));
+        write_fine(net, *uv, tessellate(map_, work.sight, net, *uv, std::numeric_limits<std::uint64_t>::max() / 4));
       }
     }
     ORBC_CHECK(vertex_, ==, range.first_vertex + range.vertex_count);
@@ -156,7 +174,7 @@ class Writer {
     }
   }
 
-  void write_uv(const std::vector<std::array<float, 2>>& uv) {
+  void write_uv(const Uv& uv) {
     std::copy(uv.begin(), uv.end(), out_.uv.begin() + static_cast<std::ptrdiff_t>(vertex_));
   }
 
@@ -172,10 +190,10 @@ class Writer {
     index_ += 3 * triangles.size();
   }
 
-  void write_fine(const PartNet& net, const Tessellation& fine) {
+  void write_fine(const PartNet& net, const Uv& uv, const Tessellation& fine) {
     const std::size_t base = net.points.w.size();
     write_points(net.points);
-    write_uv(*net.uv);
+    write_uv(uv);
     // New vertices take the same road as old ones, so that equal points get equal bits.
     PointColumns points;
     for (const NewVertex& v : fine.vertices) {
@@ -227,7 +245,7 @@ Totals count_all(const Work& work, const Executor& executor, const Progress& pro
   const std::uint64_t most = work.options.max_triangles;
   for_copies(work, executor, progress, "splitting", [&](std::size_t i) {
     if (so_far.load(std::memory_order_relaxed) > most) return;
-    totals.copies[i] = count_copy(work, work.copies[i], most, store);
+    totals.copies[i] = count_copy(work, i, most, store);
     so_far.fetch_add(totals.copies[i].triangles, std::memory_order_relaxed);
   });
   for (const CopyCount& c : totals.copies) {
@@ -244,8 +262,11 @@ Diagnostic too_dense(Work& work, const Executor& executor) {
   const bool disk = work.options.view == View::disk;
   const double asked = work.sight.tolerance;
   std::uint64_t least = 0;
-  for (const cover::Copy& copy : work.copies) {
-    for (const PartNet& net : work.nets) least += is_drawn(work, net, copy) ? net.mesh->triangles.size() : 0;
+  for (std::size_t i = 0; i < work.copies.size(); ++i) {
+    for (const ModelPart& part : model_of(work, i)) {
+      const PartNet& net = work.nets[part.net];
+      least += is_drawn(work, net, work.copies[i]) ? net.mesh->triangles.size() : 0;
+    }
   }
   const std::string message = "bending " + std::to_string(work.copies.size()) + " copies needs more than " +
                               std::to_string(work.options.max_triangles) + " triangles";
@@ -261,29 +282,60 @@ Diagnostic too_dense(Work& work, const Executor& executor) {
                     "lower cover.max_bounces, or raise cover.min_pixels or cover.min_weight");
 }
 
+/// The nets of all meshes that the models name, each once, and the models in terms of them.
+void prepare(Work& work, const place::PlacedRoom& room, const std::vector<Model>& models, const Executor& executor) {
+  std::map<const place::PlacedMesh*, std::size_t> known;   // looked up only: addresses order nothing
+  std::vector<const place::PlacedMesh*> meshes;
+  for (const Model& model : models) {
+    work.models.emplace_back();
+    for (const Model::Part& part : model.parts) {
+      ORBC_CHECK(part.uv->size(), ==, part.mesh->floor.size());
+      const auto [at, is_new] = known.try_emplace(part.mesh, meshes.size());
+      if (is_new) meshes.push_back(part.mesh);
+      work.models.back().push_back({at->second, part.uv});
+    }
+  }
+  work.nets.resize(meshes.size());
+  executor(meshes.size(), [&](std::size_t i) {
+    const bool vary = work.options.colours_vary || colours_vary(room, *meshes[i]);
+    work.nets[i] = part_net(room.room.space, *meshes[i], vary ? work.options.colour_tolerance : 0);
+  });
+  for (std::size_t i = 0; i < work.copies.size(); ++i) {
+    const cover::Storey& storey = work.copies[i].storey;
+    if (storey.number == 0) continue;
+    auto& parts = work.storeys[storey.number];
+    parts.resize(work.nets.size());
+    for (const ModelPart& part : model_of(work, i))
+      if (!parts[part.net]) parts[part.net] = lifted(storey, room.room.space, work.nets[part.net]);
+  }
+}
+
 }  // namespace
 
-Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<std::vector<std::array<float, 2>>>& atlas_uv,
+Model whole_model(const place::PlacedRoom& room, const std::vector<Uv>& uv) {
+  ORBC_CHECK(uv.size(), ==, room.parts.size());
+  Model model;
+  for (std::size_t i = 0; i < uv.size(); ++i) model.parts.push_back({&room.parts[i], &uv[i]});
+  return model;
+}
+
+Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Uv>& atlas_uv, const std::vector<cover::Copy>& copies, const place::Eye& eye,
+                       const BendOptions& options, const Executor& executor, const Progress& progress) {
+  return bend(room, {whole_model(room, atlas_uv)}, {}, copies, eye, options, executor, progress);
+}
+
+Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Model>& models, const std::vector<std::uint32_t>& model_of_copy,
                        const std::vector<cover::Copy>& copies, const place::Eye& eye, const BendOptions& options, const Executor& executor,
                        const Progress& progress) {
   ORBC_CHECK(options.tolerance_px, >, 0);
   ORBC_CHECK(options.disk_tolerance, >, 0);
   ORBC_CHECK(options.colour_tolerance, >, 0);
-  ORBC_CHECK(atlas_uv.size(), ==, room.parts.size());
+  if (!model_of_copy.empty()) ORBC_CHECK(model_of_copy.size(), ==, copies.size());
+  for (const std::uint32_t model : model_of_copy) ORBC_CHECK(model, <, models.size());
   const Isometry eye_from_room = inverse(eye.room_from_eye);
-  Work work{copies, {}, {}, options.view == View::eye ? eye_from_room : geometry::identity(room.room.space), eye_from_room, sight_of(eye, options), options};
-  work.nets.resize(room.parts.size());
-  executor(room.parts.size(), [&](std::size_t i) {
-    const auto& part = room.parts[i];
-    ORBC_CHECK(atlas_uv[i].size(), ==, part.floor.size());
-    const bool vary = options.colours_vary || colours_vary(room, part);
-    work.nets[i] = part_net(room.room.space, part, atlas_uv[i], vary ? options.colour_tolerance : 0);
-  });
-  for (const cover::Copy& copy : copies) {
-    if (copy.storey.number == 0 || work.storeys.count(copy.storey.number)) continue;
-    auto& parts = work.storeys[copy.storey.number];
-    for (const PartNet& net : work.nets) parts.push_back(lifted(copy.storey, room.room.space, net));
-  }
+  const Isometry eye_from_cover = options.view == View::eye ? eye_from_room : geometry::identity(room.room.space);
+  Work work{copies, model_of_copy, {}, {}, {}, eye_from_cover, eye_from_room, sight_of(eye, options), options};
+  prepare(work, room, models, executor);
 
   Totals totals = count_all(work, executor, progress);
   if (!totals.fits) return too_dense(work, executor);
@@ -306,7 +358,7 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<std::vec
   out.uv.resize(totals.vertices);
   out.indices.resize(3 * totals.triangles);
   for_copies(work, executor, progress, "bending", [&](std::size_t i) {
-    Writer(work, copies[i], out.copies[i], totals.copies[i].kept, out);
+    Writer(work, i, out.copies[i], totals.copies[i].kept, out);
     std::vector<Tessellation>().swap(totals.copies[i].kept);
   });
   return out;

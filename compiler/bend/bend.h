@@ -14,6 +14,21 @@ namespace orbc::bend {
 
 enum class View { eye, disk };
 
+/// Places in the atlas, one for each vertex of a part.
+using Uv = std::vector<std::array<float, 2>>;
+
+/// What copies are drawn from: parts of the room with their places in the atlas. Copies may share a model, models may share meshes and uv (what is
+/// prepared for a mesh is prepared once); so a copy may have coarser parts (level of detail) or colours of its own (what depends on the eye).
+struct Model {
+  struct Part {
+    const place::PlacedMesh* mesh = nullptr;
+    const Uv* uv = nullptr;
+  };
+  std::vector<Part> parts;
+};
+/// All parts of a room. In: uv parallel to its parts; both must outlive the model.
+[[nodiscard]] Model whole_model(const place::PlacedRoom& room, const std::vector<Uv>& uv);
+
 struct BendOptions {
   View view = View::eye;
   double tolerance_px = 0.25;       ///< largest distance of a bent chord from the true curve, in pixels of the eye's picture; > 0
@@ -42,12 +57,16 @@ struct BentCover {
 /// Bends every copy of the room for the eye: splits edges until every chord lies within the tolerance of the true image, each edge judged
 /// by itself so that neighbours agree, then maps the vertices by the log map.
 /// Copies with a wedge are cut to it first, copies on other storeys lifted there (clip.h).
-/// In:          parts of one room, with uv per vertex into the atlas (parallel to parts[i].floor); copies; the eye.
+/// In:          the room for its space and looks; models, and which one each copy is drawn from (empty: all from the first); uv parallel to their mesh's vertices;
+///              copies; the eye.
 /// Makes:       the same bytes whatever the executor; walls that face the eye (`Copy::nearer_walls`) are left out, neighbours draw them.
 /// Diagnostics: bend.too-dense when more than `max_triangles` would be needed; the hint names a tolerance that fits.
 /// Not promised: a minimal triangle count.
-[[nodiscard]] Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<std::vector<std::array<float, 2>>>& atlas_uv,
+[[nodiscard]] Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Model>& models, const std::vector<std::uint32_t>& model_of_copy,
                                      const std::vector<cover::Copy>& copies, const place::Eye& eye, const BendOptions& options,
                                      const Executor& executor, const Progress& progress = {});
+/// All copies from one model: the room itself.
+[[nodiscard]] Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Uv>& atlas_uv, const std::vector<cover::Copy>& copies,
+                                     const place::Eye& eye, const BendOptions& options, const Executor& executor, const Progress& progress = {});
 
 }  // namespace orbc::bend

@@ -17,13 +17,13 @@ constexpr double kOn = 1e-12;   // radians as seen from the eye
 
 class Clipper {
  public:
-  Clipper(const Wedge& wedge, const LogMap& map, const PartNet& net) : wedge_(wedge), map_(map), net_(net), own_(std::make_unique<OwnPart>()) {
+  Clipper(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv) : wedge_(wedge), map_(map), net_(net), own_(std::make_unique<OwnPart>()) {
     const place::PlacedMesh& mesh = *net.mesh;
     own_->mesh.kind = mesh.kind;
     own_->mesh.name = mesh.name;
     own_->mesh.wall = mesh.wall;
     new_index_.assign(mesh.floor.size(), -1);
-    for (std::size_t i = 0; i < mesh.floor.size(); ++i) given_.push_back(vertex(mesh.floor[i], mesh.z[i], (*net.uv)[i], static_cast<std::int32_t>(i)));
+    for (std::size_t i = 0; i < mesh.floor.size(); ++i) given_.push_back(vertex(mesh.floor[i], mesh.z[i], uv[i], static_cast<std::int32_t>(i)));
   }
 
   std::unique_ptr<OwnPart> run() {
@@ -141,7 +141,7 @@ class Clipper {
     // The net is measured on the surface; splitting starts from the affine vertices.
     const std::vector<geometry::Point> affine = own_->mesh.floor;
     for (geometry::Point& p : own_->mesh.floor) p = geometry::normalised_point(map_.space, p);
-    own_->net = part_net(map_.space, own_->mesh, own_->uv, net_.along);
+    own_->net = part_net(map_.space, own_->mesh, net_.along);
     own_->mesh.floor = affine;
   }
 
@@ -166,14 +166,15 @@ InWedge place_in(const Wedge& wedge, const LogMap& map, const PartNet& net) {
   return first > radius && second > radius ? InWedge::all : InWedge::some;
 }
 
-std::unique_ptr<OwnPart> clipped(const Wedge& wedge, const LogMap& map, const PartNet& net) { return Clipper(wedge, map, net).run(); }
+std::unique_ptr<OwnPart> clipped(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv) {
+  return Clipper(wedge, map, net, uv).run();
+}
 
 std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, geometry::Space space, const PartNet& net) {
   auto own = std::make_unique<OwnPart>();
   own->mesh = *net.mesh;
-  own->uv = *net.uv;
   for (double& z : own->mesh.z) z = storey.sign * z + storey.offset;
-  own->net = part_net(space, own->mesh, own->uv, net.along);
+  own->net = part_net(space, own->mesh, net.along);
   return own;
 }
 

@@ -11,7 +11,7 @@ namespace orbc::bend {
 /// A part made for one copy: cut, lifted, or both. Keeps what its net refers to.
 struct OwnPart {
   place::PlacedMesh mesh;
-  std::vector<std::array<float, 2>> uv;
+  Uv uv;                ///< of parts that are cut
   PartNet net;
 };
 
@@ -24,9 +24,9 @@ enum class InWedge { all, some, none };
 /// Makes:  vertices on cuts as Σ bᵢXᵢ, not scaled back to the surface, so that heights and uv stay affine (design §2); `net.points` has them on the surface.
 ///         Where a cut meets an edge follows from the edge's two ends and the border alone: the copy on the other side gets the same vertex bit by bit.
 /// Error:  vertices within 1e-12 radians of a border, as the eye sees them, count as on it.
-[[nodiscard]] std::unique_ptr<OwnPart> clipped(const cover::Wedge& wedge, const LogMap& map, const PartNet& net);
+[[nodiscard]] std::unique_ptr<OwnPart> clipped(const cover::Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv);
 
-/// The part as it is on a storey: z ↦ sign·z + offset. Triangles keep their order of corners; the copy is turned inside out when sign < 0.
+/// The part as it is on a storey: z ↦ sign·z + offset. Triangles keep their order of corners and vertices their uv; the copy is turned inside out when sign < 0.
 [[nodiscard]] std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, geometry::Space space, const PartNet& net);
 
 }  // namespace orbc::bend

@@ -68,10 +68,9 @@ double acceleration(const CopyMap& map, double from, double to) {
   return std::hypot(0.5 + largest, 1 + largest) / (s * s);
 }
 
-PartNet part_net(Space space, const place::PlacedMesh& mesh, const std::vector<std::array<float, 2>>& uv, double along) {
+PartNet part_net(Space space, const place::PlacedMesh& mesh, double along) {
   PartNet net;
   net.mesh = &mesh;
-  net.uv = &uv;
   net.along = along;
   geometry::Ambient sum{0, 0, 0};
   net.low = mesh.z.empty() ? 0 : mesh.z[0];

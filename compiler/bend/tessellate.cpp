@@ -46,10 +46,11 @@ struct Edge {
 
 class Splitter {
  public:
-  Splitter(const CopyMap& map, const Sight& sight, const PartNet& net, std::uint64_t most)
+  Splitter(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most)
       : map_(map),
         sight_(sight),
         net_(net),
+        uv_(uv),
         most_(most),
         samples_(net.longest > 1 ? 7 : 3),
         densest_(map.view == View::eye ? densest(sight) : 1) {
@@ -66,7 +67,7 @@ class Splitter {
     const std::size_t count = mesh.floor.size();
     corners_.reserve(count + 64);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto& uv = (*net_.uv)[i];
+      const auto& uv = uv_[i];
       corners_.push_back(corner(mesh.floor[i], mesh.z[i], {uv[0], uv[1]}));
     }
     edges_.reserve(net_.edges.size() + 64);
@@ -405,6 +406,7 @@ class Splitter {
   const CopyMap& map_;
   const Sight& sight_;
   const PartNet& net_;
+  const Uv& uv_;
   std::uint64_t most_;
   int samples_;
   double densest_;
@@ -425,8 +427,8 @@ geometry::Vector3 image_of(const CopyMap& map, const Ambient& v, double z) {
   return {q.x * scale, q.y * scale, z};
 }
 
-Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, std::uint64_t most) {
-  return Splitter(map, sight, net, most).run();
+Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most) {
+  return Splitter(map, sight, net, uv, most).run();
 }
 
 }  // namespace orbc::bend

@@ -8,10 +8,9 @@
 
 namespace orbc::bend {
 
-/// A part of the room made ready for bending many times: its edges, each once, and how large it is.
+/// A part of the room made ready for bending many times: its edges, each once, and how large it is. Uv go beside it: copies may differ in them.
 struct PartNet {
   const place::PlacedMesh* mesh = nullptr;
-  const std::vector<std::array<float, 2>>* uv = nullptr;
   PointColumns points;
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  ///< edge k of a triangle joins its corners k and k+1
@@ -22,8 +21,7 @@ struct PartNet {
   double along = 0;                  ///< > 0: colours vary inside triangles; their shift counts with this tolerance
 };
 
-[[nodiscard]] PartNet part_net(geometry::Space space, const place::PlacedMesh& mesh, const std::vector<std::array<float, 2>>& uv,
-                               double along);
+[[nodiscard]] PartNet part_net(geometry::Space space, const place::PlacedMesh& mesh, double along);
 
 /// The curved map of one copy, for both views.
 struct CopyMap {
@@ -62,6 +60,6 @@ struct Tessellation {
 /// are in the room and in the picture, in an order that does not depend on the triangle: neighbours agree, so there are no cracks and no
 /// T-junctions. On S² the axes through the eye's foot and its antipode, where the image is torn, are cut out: a triangle around one becomes
 /// a ring that ends on the circle that is the image of the axis.
-[[nodiscard]] Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, std::uint64_t most);
+[[nodiscard]] Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most);
 
 }  // namespace orbc::bend

@@ -40,7 +40,7 @@ struct Flat {
 };
 
 Flat flat_of(const CopyMap& map, const Sight& sight, const PartNet& net) {
-  const Tessellation fine = tessellate(map, sight, net, 1'000'000);
+  const Tessellation fine = tessellate(map, sight, net, Uv(net.mesh->floor.size()), 1'000'000);
   REQUIRE(!fine.too_many);
   Flat flat;
   for (std::size_t i = 0; i < net.mesh->floor.size(); ++i) {
@@ -93,9 +93,9 @@ double seen_distance(const place::Eye& eye, const Vector3& p, const Vector3 (&t)
   return std::min({seen_distance(eye, p, t[0], t[1]), seen_distance(eye, p, t[1], t[2]), seen_distance(eye, p, t[2], t[0])});
 }
 
-std::vector<PartNet> nets_of(const PlacedRoom& room, const std::vector<std::vector<std::array<float, 2>>>& uv) {
+std::vector<PartNet> nets_of(const PlacedRoom& room) {
   std::vector<PartNet> nets;
-  for (std::size_t i = 0; i < room.parts.size(); ++i) nets.push_back(part_net(room.room.space, room.parts[i], uv[i], 0));
+  for (std::size_t i = 0; i < room.parts.size(); ++i) nets.push_back(part_net(room.room.space, room.parts[i], 0));
   return nets;
 }
 
@@ -109,8 +109,7 @@ TEST_CASE("every chord and every triangle lies within the tolerance, seen in the
   with.walls = true;
   with.knot_along = 24;
   const auto room = regular_room(of.corners, of.order, with);
-  const auto uv = plain_uv(room);
-  const auto nets = nets_of(room, uv);
+  const auto nets = nets_of(room);
   double worst = 0;
   for (int view = 0; view < 2; ++view) {
     const auto eye = eye_at(room.room.space, 0.1 + 0.15 * view, 1.0 + 2 * view, 0.3 + 0.2 * view, 1.7 * view, 0.2 - 0.2 * view);
@@ -156,8 +155,7 @@ TEST_CASE("a part has no cracks inside: every edge has two sides or lies on the 
   Furnishing with;
   with.knot_along = 24;
   const auto room = regular_room(of.corners, of.order, with);
-  const auto uv = plain_uv(room);
-  const auto nets = nets_of(room, uv);
+  const auto nets = nets_of(room);
   const auto eye = eye_at(room.room.space, 0.17, 1.0, 0.37, 0.4, -0.2);
   for (const auto& copy : copies_for(of, room)) {
     const CopyMap map = map_for(eye, copy);
@@ -187,8 +185,7 @@ TEST_CASE("neighbouring copies split their common wall alike and meet there", "[
   const Case& of = GENERATE(from_range(std::begin(kCases), std::end(kCases)));
   CAPTURE(of.name);
   const auto room = regular_room(of.corners, of.order);
-  const auto uv = plain_uv(room);
-  const auto nets = nets_of(room, uv);
+  const auto nets = nets_of(room);
   const auto eye = eye_at(room.room.space, 0.17, 1.0, 0.37, 0.4, -0.2);
   double worst = 0;
   std::size_t points = 0;
@@ -225,8 +222,7 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
   Furnishing with;
   with.walls = true;
   const auto room = regular_room(3, 2, with);
-  const auto uv = plain_uv(room);
-  const auto nets = nets_of(room, uv);
+  const auto nets = nets_of(room);
   auto copies = with_sheets(copies_of(room, 3), 3, 3);
   const double middle = room.room.circumradius / 2;
   const struct {

@@ -1,5 +1,6 @@
 #include "compiler/bend/bend.h"
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -175,4 +176,38 @@ TEST_CASE("work stops when the user asks", "[bend]") {
   CHECK_THROWS_AS(bend::bend(room, plain_uv(room), copies_of(room, 2), eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1), {},
                              serial_executor(), progress),
                   Cancelled);
+}
+
+TEST_CASE("each copy is drawn from its own model, and models share what they have in common", "[bend]") {
+  const auto room = regular_room(5, 2);
+  const auto uv = plain_uv(room);
+  const auto copies = copies_of(room, 3);
+  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  const auto plain = bend::bend(room, uv, copies, eye, {}, serial_executor());
+  REQUIRE(plain.has_value());
+
+  // The second model lacks the first part and has other colours elsewhere.
+  std::vector<Uv> other = uv;
+  for (auto& part : other)
+    for (auto& at : part) at = {0.75F, 0.25F};
+  std::vector<Model> models{whole_model(room, uv), whole_model(room, other)};
+  models[1].parts.erase(models[1].parts.begin());
+  std::vector<std::uint32_t> model_of_copy;
+  for (std::size_t i = 0; i < copies.size(); ++i) model_of_copy.push_back(i % 2);
+  const auto mixed = bend::bend(room, models, model_of_copy, copies, eye, {}, serial_executor());
+  REQUIRE(mixed.has_value());
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    const BentRange &a = plain->copies[i], &b = mixed->copies[i];
+    if (i % 2 == 1) {
+      CHECK(b.vertex_count < a.vertex_count);
+      CHECK(std::all_of(mixed->uv.begin() + static_cast<std::ptrdiff_t>(b.first_vertex),
+                        mixed->uv.begin() + static_cast<std::ptrdiff_t>(b.first_vertex + b.vertex_count),
+                        [](const auto& at) { return at == std::array<float, 2>{0.75F, 0.25F}; }));
+      continue;
+    }
+    REQUIRE(b.vertex_count == a.vertex_count);
+    CHECK(std::equal(plain->positions.begin() + static_cast<std::ptrdiff_t>(a.first_vertex),
+                     plain->positions.begin() + static_cast<std::ptrdiff_t>(a.first_vertex + a.vertex_count),
+                     mixed->positions.begin() + static_cast<std::ptrdiff_t>(b.first_vertex)));
+  }
 }
