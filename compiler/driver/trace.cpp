@@ -9,7 +9,7 @@ render::Film trace(const Opened& opened, const TraceOptions& options, const Exec
   report(progress, "preparing", 0, 0);
   const orbc::trace::TraceScene scene = orbc::trace::prepare(*opened.room, executor);
   // The lamps have been hung once already, when the scene was opened: they hang.
-  const light::LightField light = light::prepare_light(opened.scene, *opened.room, {}, executor).value();
+  const light::LightField light = light::prepare_light(opened.scene, *opened.room, light::light_options(opened.scene), executor).value();
   render::DrawOptions draw;
   draw.light = light.lit ? &light : nullptr;
   draw.samples = options.samples;

@@ -265,7 +265,7 @@ Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vecto
 }  // namespace
 
 bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
-  if (!scene.lamps.empty()) return true;
+  if (!scene.lamps.empty() || scene.integrator == scene::Integrator::path) return true;
   return std::any_of(room.parts.begin(), room.parts.end(), [&](const PlacedMesh& part) {
     return std::any_of(part.look.begin(), part.look.end(), [&](std::uint16_t look) {
       return room.looks[look].texture < 0 && varies(room, look, !part.pattern_position.empty());

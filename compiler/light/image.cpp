@@ -140,6 +140,8 @@ std::vector<LampImage> lamp_images(const std::vector<HungLamp>& lamps, const pla
           image.samples.push_back({copy.cover_from_room * p.floor, storey.sign * p.z + storey.shift});
           image.axes.push_back(image_of(copy.cover_from_room, storey, lamps[l].axes[i]));
         }
+        image.feet = lamps[l].feet;
+        for (Foot& foot : image.feet) foot.at = {copy.cover_from_room * foot.at.floor, storey.sign * foot.at.z + storey.shift};
         images.push_back(std::move(image));
       }
   return images;

@@ -14,6 +14,7 @@ struct LampImage {
   bool exact = false;                       ///< only the path over these very mirrors is this image's: rooms that are no orbifolds
   std::vector<geometry::Position> samples;  ///< of the lamp's samples
   std::vector<trace::Direction> axes;
+  std::vector<Foot> feet;              ///< of the lamp's feet
   double weight = 1;                        ///< upper bound of the largest channel of a path's weight
 };
 

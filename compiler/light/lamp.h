@@ -7,6 +7,14 @@
 
 namespace orbc::light {
 
+/// A place near a lamp where a surface is lit most: the point of floor, ceiling or a plain wall next to it.
+struct Foot {
+  geometry::Position at;
+  double reach = 0;                         ///< distance of the lamp
+  double share = 1;                         ///< the lamp's profile that way
+  bool upright = true;                      ///< on floor or ceiling
+};
+
 /// A lamp of a scene, hung in its room: where its light starts, and how much of it goes where.
 /// Samples are fixed points of the lamp, so that two roads and two runs see the same shadow; every beginning of the list is spread over the
 /// whole lamp.
@@ -21,6 +29,7 @@ struct HungLamp {
   geometry::Position centre;
   std::vector<geometry::Position> samples;  ///< at least one; a point has one
   std::vector<trace::Direction> axes;       ///< per sample: unit direction that it faces (tube: along it)
+  std::vector<Foot> feet;                   ///< filled when light is prepared
 };
 
 /// How much brighter than a lamp that shines alike to all sides it is in a direction at angle θ to its axis; its mean over all directions

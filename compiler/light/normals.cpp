@@ -114,7 +114,7 @@ PartNormals part_normals(const place::PlacedRoom& room, const PlacedMesh& part, 
 LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, const ShadingVertex& vertex) {
   LightPoint point;
   point.at = point.origin = {part.floor[vertex.vertex], part.z[vertex.vertex]};
-  point.normal = vertex.normal;
+  point.normal = point.flat = vertex.normal;
   point.wall = part.kind == PartKind::wall ? part.wall : -1;
   point.on_triangle = part.kind == PartKind::object || part.kind == PartKind::frame;
   (void)room;
@@ -132,7 +132,7 @@ LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, co
   point.wall = part.kind == PartKind::wall ? part.wall : -1;
   point.on_triangle = part.kind == PartKind::object || part.kind == PartKind::frame;
   if (!point.on_triangle) {
-    point.normal = normals.vertices[normals.corners[triangle][0]].normal;
+    point.normal = point.flat = normals.vertices[normals.corners[triangle][0]].normal;
     return point;
   }
   const Frame frame = frame_at(space, point.at.floor);
@@ -142,7 +142,13 @@ LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, co
     normal = normal + b[k] * n[k];
   }
   const double size = length(normal);
-  point.normal = global(frame, size > 1e-9 ? (1 / size) * normal : n[0]);
+  point.normal = point.flat = global(frame, size > 1e-9 ? (1 / size) * normal : n[0]);
+  // ∂/∂b of normalise(Σ bᵢXᵢ) has the length of the edge over |Σ bᵢXᵢ|.
+  const double k2 = geometry::curvature(space);
+  const double sagged = space == Space::euclidean ? 1 : std::sqrt(std::fabs(sum.w * sum.w + k2 * (sum.x * sum.x + sum.y * sum.y)));
+  const auto edge = [&](int k) { return local(space, frame, {(1 / sagged) * (part.floor[t[k]] - part.floor[t[0]]), part.z[t[k]] - part.z[t[0]]}); };
+  const Vector3 across = cross(edge(1), edge(2));
+  if (const double area = length(across); area > 1e-30) point.flat = global(frame, (1 / area) * across);
   for (int k = 0; k < 3; ++k) {
     const Vector3 from = local(space, frame, {point.at.floor - part.floor[t[k]], point.at.z - part.z[t[k]]});
     const double below = std::min(0.0, dot(from, n[k]));

@@ -33,6 +33,7 @@ struct LightPoint {
       origin;  ///< where shadow rays start: on the smooth surface, so that flat triangles do not shade themselves at the light's rim
   int wall = -1;                    ///< it lies on this wall
   bool on_triangle = true;          ///< false: on a wall, the floor or the ceiling
+  trace::Direction flat = normal;   ///< unit: of the flat triangle; at vertices the normal
 };
 /// Origin: Hanika, Hacking the shadow terminator, Ray Tracing Gems II (2021), ch. 4: the point projected to the tangent planes of the
 ///         corners, mixed.

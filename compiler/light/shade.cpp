@@ -1,18 +1,16 @@
-// Light of a point: for every image of every lamp the straight geodesic to it, and, if it could matter, a shadow ray that is really turned
-//                   back by the mirrors. How
-// many points of a lamp are asked follows from what the image could add: a step of its shadow stays below what 8 bits show.
+// Light of a point: for every image of every lamp the straight geodesic to it, and, if it could matter, shadow rays (way.cpp). How many
+// points of a lamp are asked follows from what the image could add: a step of its shadow stays below what 8 bits show.
 #include "compiler/light/shade.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "compiler/light/falloff.h"
-#include "compiler/light/frame.h"
-#include "compiler/trace/analytic.h"
+#include "compiler/light/guide.h"
+#include "compiler/light/way.h"
 
 namespace orbc::light {
 namespace {
@@ -24,99 +22,19 @@ using trace::Direction;
 
 constexpr double kStep = 0.012;       // of white: what one sample of a lamp may add
 constexpr int kProbes = 4;            // samples that decide whether there is a penumbra at all
-constexpr double kArrival = 1e-5;     // how near to the lamp's sample a shadow ray must end; its own error is below 1e-12 in rooms
 
 double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
-/// The straight path from a point to a sample of an image.
-struct Way {
-  Direction start;                  ///< unit, at the surface point
-  double length = 0, arc = 0;
-  trace::Ray ray;
-  bool exists = false;
-};
-
-Way way_to(Space space, const Position& from, const Position& to, int sheet) {
-  Way way;
-  const double near = geometry::distance(space, from.floor, to.floor), dz = to.z - from.z;
-  way.arc = near;
-  if (sheet > 0) way.arc = sheet % 2 == 0 ? near + sheet * std::numbers::pi : (sheet + 1) * std::numbers::pi - near;
-  way.length = std::hypot(way.arc, dz);
-  if (way.length < 1e-9) return way;
-  way.exists = true;
-  if (way.arc < 1e-9) {
-    way.start = {{0, 0, 0}, dz < 0 ? -1.0 : 1.0};
-    return way;
-  }
-  way.exists = near >= 1e-9 && (space != Space::spherical || near <= std::numbers::pi - 1e-9);
-  if (!way.exists) return way;  // seen from all sides at once: the focus itself has no direction
-  const geometry::Tangent d = geometry::direction_to(space, from.floor, to.floor);
-  const double sign = sheet % 2 == 0 ? 1 : -1, c = way.arc / way.length;
-  way.start = {(sign * c) * d, dz / way.length};
-  return way;
-}
-
-/// A shadow ray's way through the room: its pieces between mirrors, as long as they meet no plain wall.
-struct ShadowPath {
-  static constexpr int kMost = 32;
-  std::array<trace::Ray, kMost> rays;
-  std::array<double, kMost> lengths{};
-  std::array<std::int16_t, kMost> walls{};
-  int pieces = 0, crossed = 0;
-  Color weight{1, 1, 1};
-  bool complete = false;
-};
-
-// The same steps as trace::follow, without triangles: most paths that fail, fail here.
-ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double length, int bounces) {
-  ShadowPath path;
-  for (;;) {
-    const trace::Exit exit = trace::exit_of(scene.prism, ray);
-    path.rays[static_cast<std::size_t>(path.pieces)] = ray;
-    path.lengths[static_cast<std::size_t>(path.pieces++)] = std::min(exit.t, length);
-    if (exit.t >= length) {
-      path.complete = true;
-      return path;
-    }
-    const trace::MirrorArea* mirror = trace::mirror_at(scene, ray, exit.t, exit.surface);
-    if (!mirror || path.pieces > bounces || path.pieces == ShadowPath::kMost) return path;
-    path.weight = path.weight * mirror->weight;
-    if (exit.surface >= 0) path.walls[static_cast<std::size_t>(path.crossed++)] = static_cast<std::int16_t>(exit.surface);
-    length -= exit.t;
-    ray = exit.surface >= 0 ? trace::reflected_in_wall(scene.prism, ray, exit.t, exit.surface)
-                            : trace::reflected_in_plane(scene.prism, ray, exit.t, exit.surface);
-  }
-}
-
-/// What a path brings along: nothing, or the weight of its mirrors.
-Color arriving(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point,
-               const Way& way) {
+/// About how much an image could add at a point; 0 only where it surely adds nothing.
+double expected(const LightField& field, const LampImage& image, const LightPoint& point) {
   const Space space = field.scene.prism.space;
-  trace::Ray ray = trace::ray_from(space, point.origin, way.start);
-  ray.leaves_wall = point.wall;
-  ray.t_min = point.on_triangle ? trace::kLeave : 0;
-  const ShadowPath path = reflected_path(field.scene, ray, way.length * (1 - 1e-9), field.options.bounces);
-  if (!path.complete) return {};
-  const auto last = static_cast<std::size_t>(path.pieces - 1);
-  const Position end = trace::position_at(space, path.rays[last], path.lengths[last]);
-  const Position& there = lamp.samples[sample];
-  const geometry::Ambient off = end.floor - there.floor;
-  const double apart = std::fabs(off.x) + std::fabs(off.y) + std::fabs(off.w) + std::fabs(end.z - there.z);
-  if (apart > kArrival * (1 + std::fabs(there.floor.w)) + 1e-7 * way.length) return {};
-  if (image.exact && !std::equal(path.walls.begin(), path.walls.begin() + path.crossed, image.walls.begin(), image.walls.end())) return {};
-  for (std::size_t i = 0; i <= last; ++i)
-    if (trace::occluded(field.scene, path.rays[i], path.lengths[i])) return {};
-  return path.weight;
-}
-
-/// Light per unit of power that would come from a sample if nothing stood between, on a surface across the path; times its profile.
-double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point,
-                  const Way& way) {
-  const Space space = field.scene.prism.space;
-  double value = falloff(lamp.falloff, space, way.length, way.arc, lamp.radius);
-  if (lamp.kind == scene::LampKind::point || lamp.kind == scene::LampKind::sphere) return value;
-  const trace::Ray ray = trace::ray_from(space, point.at, way.start);
-  return value * profile(lamp, -trace::inner(space, trace::direction_at(space, ray, way.length), image.axes[sample]));
+  const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
+  const Way way = way_to(space, point.origin, image.samples[0], image.sheet);
+  const double near = 2 * lamp.extent / std::max(way.length, 1e-9);
+  const double cosine = way.exists ? trace::inner(space, way.start, point.normal) + near : 1;
+  if (cosine <= 0 && near < 1) return 0;
+  return largest(lamp.power) * image.weight * std::clamp(cosine, 0.05, 1.0) *
+         falloff(lamp.falloff, space, std::max(way.length, lamp.radius), way.arc, lamp.radius);
 }
 
 /// Adds up f(way, light) over the samples of an image, light = unhindered × weight; f(way) = 0 costs no ray.
@@ -167,10 +85,18 @@ bool inside_something(const trace::TraceScene& scene, const Position& p) {
 
 }  // namespace
 
+LightOptions light_options(const scene::Scene& scene) {
+  LightOptions options;
+  options.bounces = scene.bake.mirrors;
+  if (scene.integrator == scene::Integrator::path) options.passes = scene.bake.bounces;
+  options.seed = static_cast<std::uint64_t>(scene.bake.seed);
+  return options;
+}
+
 Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options,
                                  const Executor& executor) {
   LightField field;
-  field.lit = !scene.lamps.empty();
+  field.lit = !scene.lamps.empty() || options.passes > 0;
   if (!field.lit) {
     field.ambient = {1, 1, 1};
     return field;
@@ -182,6 +108,7 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
   field.options = options;
   field.lamps = std::move(hung->lamps);
   field.warnings = std::move(hung->warnings);
+  for (HungLamp& lamp : field.lamps) lamp.feet = feet_of(lamp, room);
   field.images = lamp_images(field.lamps, room, options.bounces);
   field.normals.resize(room.parts.size());
   executor(room.parts.size(), [&](std::size_t i) { field.normals[i] = part_normals(room, room.parts[i]); });
@@ -208,12 +135,42 @@ Color irradiance(const LightField& field, const LightPoint& point) {
   return sum;
 }
 
+Color irradiance_guess(const LightField& field, const LightPoint& point, const std::array<double, 3>& u) {
+  const Space space = field.scene.prism.space;
+  // An image is asked as often as it could give light, were nothing in between: one is kept of all that pass by, and one number serves
+  // them all, since what decided stretches to a number that is even again (Chao 1982).
+  double sum = 0, kept = 0, left = u[0];
+  const LampImage* chosen = nullptr;
+  for (const LampImage& image : field.images) {
+    const double could = expected(field, image, point);
+    if (could <= 0) continue;
+    sum += could;
+    const double chance = could / sum;
+    if (left < chance) chosen = &image, kept = could, left /= chance;
+    else left = (left - chance) / (1 - chance);
+  }
+  if (!chosen) return {};
+  const LampImage& image = *chosen;
+  const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
+  const std::size_t all = image.samples.size() - 1;
+  const std::size_t sample = all == 0 ? 0 : 1 + std::min(all - 1, static_cast<std::size_t>(u[1] * static_cast<double>(all)));
+  const Way way = way_to(space, point.origin, image.samples[sample], image.sheet);
+  if (!way.exists) return {};
+  const double cosine = trace::inner(space, way.start, point.normal);
+  if (cosine <= 0) return {};
+  const double light = cosine * unhindered(field, image, lamp, sample, point, way);
+  if (light <= 0) return {};
+  return (light * sum / kept) * (lamp.power * arriving(field, image, lamp, sample, point, way));
+}
+
 Color radiance_out(const LightField& field, const scene::Material& material, const Color& albedo, const Color& e) {
   Color out =
       material.kind == scene::MaterialKind::emissive ? material.emission * albedo : albedo * (field.ambient + (1 / std::numbers::pi) * e);
-  const double white = 1 / std::max(field.exposure, 1e-300);
+  const double white = white_of(field);
   return {std::min(out.r, white), std::min(out.g, white), std::min(out.b, white)};
 }
+
+double white_of(const LightField& field) { return 1 / std::max(field.exposure, 1e-300); }
 
 LightPoint light_point(const LightField& field, const place::PlacedRoom& room, const trace::SurfacePoint& point, const trace::Hit& hit) {
   if (hit.target == trace::Target::triangle) {

@@ -11,13 +11,18 @@
 namespace orbc::light {
 
 struct LightOptions {
-  int bounces = 2;                  ///< mirrors that light is followed over
+  int bounces = 2;                  ///< mirrors that the light of lamps is followed over
+  int passes = 0;                   ///< how often matte surfaces may pass light on to each other; 0: `integrator: direct`
+  std::uint64_t seed = 1;           ///< of random numbers, for pictures that need them
   double cut = 1.0 / 1000;          ///< images that could add less than this to a white surface (white = 1 in the picture) are left out
 };
 
+/// What the author of a scene says of them.
+[[nodiscard]] LightOptions light_options(const scene::Scene& scene);
+
 /// All that is needed to light a point of a room; made once for a scene, shared by both roads.
 struct LightField {
-  bool lit = false;                 ///< false: a scene without lamps, shown in its plain colours
+  bool lit = false;                 ///< false: a scene with neither lamps nor `integrator: path`, shown in its plain colours
   scene::Color ambient;
   double exposure = 1;
   LightOptions options;
@@ -40,12 +45,18 @@ struct LightField {
 ///         mirrors is not in it.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point);
 
+/// A guess of `irradiance` from one shadow ray to one sample of one image: its mean over even numbers u in [0, 1) is the irradiance.
+[[nodiscard]] scene::Color irradiance_guess(const LightField& field, const LightPoint& point, const std::array<double, 3>& u);
+
 /// What a matte surface of the given colour sends to every eye: colour × (ambient + E/π), so that white under E = π shows as white at
 ///                                                              exposure 1; emissive ones
 /// emission × colour. Never more than white after exposure: a picture of the room, hung into all copies, holds no more, and both roads must
 /// agree.
+/// In: what comes to it from other surfaces is part of `irradiance`, times π.
 [[nodiscard]] scene::Color radiance_out(const LightField& field, const scene::Material& material, const scene::Color& albedo,
                                         const scene::Color& irradiance);
+/// What shows as white: the most that any surface sends to the eye.
+[[nodiscard]] double white_of(const LightField& field);
 
 /// The point that a ray has met, made ready to be lit.
 [[nodiscard]] LightPoint light_point(const LightField& field, const place::PlacedRoom& room, const trace::SurfacePoint& point,

@@ -9,23 +9,68 @@
 namespace orbc::render {
 namespace {
 
-constexpr int kTile = 16;  // pixels; small enough to spread over threads, large enough that neighbours share the tree in cache
+constexpr int kTile = 16;           // pixels; small enough to spread over threads, large enough that neighbours share the tree in cache
+constexpr std::size_t kStream = 512; // rays followed at once: their paths stay in the second-level cache
 
-void draw_pixel(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const std::vector<std::array<double, 2>>& samples, int x, int y, Film& film) {
-  const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(x);
-  scene::Color sum;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    const Seen seen = radiance(scene, eye_ray(eye, x + samples[s][0], y + samples[s][1]), options);
-    sum = sum + seen.radiance;
-    if (s > 0) continue;
-    film.bounces[pixel] = seen.path.bounces;
-    film.weight[pixel] = static_cast<float>(std::max({seen.path.weight.r, seen.path.weight.g, seen.path.weight.b}));
-    if (!seen.hit) continue;
-    film.depth[pixel] = static_cast<float>(seen.path.length);
-    film.object[pixel] = seen.surface.part;
-    film.normal[pixel] = {static_cast<float>(seen.surface.normal.floor.x), static_cast<float>(seen.surface.normal.floor.y), static_cast<float>(seen.surface.normal.z)};
+struct Pixel {
+  int x = 0, y = 0;
+};
+
+void record(const Seen& seen, std::size_t pixel, Film& film) {
+  film.bounces[pixel] = seen.path.bounces;
+  film.weight[pixel] = static_cast<float>(std::max({seen.path.weight.r, seen.path.weight.g, seen.path.weight.b}));
+  if (!seen.hit) return;
+  film.depth[pixel] = static_cast<float>(seen.path.length);
+  film.object[pixel] = seen.surface.part;
+  film.normal[pixel] = {static_cast<float>(seen.surface.normal.floor.x), static_cast<float>(seen.surface.normal.floor.y),
+                        static_cast<float>(seen.surface.normal.z)};
+}
+
+double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
+scene::Color least(const scene::Color& a, const scene::Color& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
+
+/// Sums over a pixel's samples, in their order.
+struct Sums {
+  scene::Color radiance, most, guess, guess2;
+  void add(const Seen& seen) {
+    radiance = radiance + seen.radiance;
+    most = most + seen.most;
+    guess = guess + seen.passed_on;
+    guess2 = guess2 + seen.passed_on * seen.passed_on;
   }
-  film.color[pixel] = (1.0 / static_cast<double>(samples.size())) * sum;
+  scene::Color mean(double n) const { return least((1 / n) * radiance, (1 / n) * most); }
+  /// Standard error of the mean in the noisiest channel; of a single guess the guess itself.
+  float error(double n) const {
+    if (n < 2) return static_cast<float>(largest(guess));
+    const auto variance = [&](double sum, double sum2) { return std::max(0.0, sum2 - sum * sum / n) / (n * (n - 1)); };
+    return static_cast<float>(std::sqrt(largest({variance(guess.r, guess2.r), variance(guess.g, guess2.g), variance(guess.b, guess2.b)})));
+  }
+};
+
+/// Draws pixels by all their samples, as many rays at once as make a stream.
+void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options,
+                 const std::vector<std::array<double, 2>>& samples, const std::vector<Pixel>& pixels, Film& film) {
+  const std::size_t count = samples.size(), all = pixels.size() * count;
+  const double n = static_cast<double>(count);
+  std::vector<trace::Ray> rays;
+  Sums sums;
+  for (std::size_t first = 0; first < all; first += kStream) {
+    rays.clear();
+    for (std::size_t i = first; i < std::min(all, first + kStream); ++i)
+      rays.push_back(eye_ray(eye, pixels[i / count].x + samples[i % count][0], pixels[i / count].y + samples[i % count][1]));
+    std::vector<trace::Path> paths = trace::follow(scene, rays, follow_options(options));
+    for (std::size_t j = 0; j < paths.size(); ++j) {
+      const std::size_t i = first + j, sample = i % count;
+      const Pixel at = pixels[i / count];
+      const std::size_t pixel = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(at.x);
+      const Seen seen = radiance(scene, std::move(paths[j]), options, light::Random(options.light ? options.light->options.seed : 0, pixel, sample));
+      if (sample == 0) sums = {}, record(seen, pixel, film);
+      sums.add(seen);
+      if (sample + 1 < count) continue;
+      film.color[pixel] = sums.mean(n);
+      if (!film.error.empty()) film.error[pixel] = sums.error(n);
+    }
+  }
 }
 
 }  // namespace
@@ -52,6 +97,7 @@ std::vector<std::array<double, 2>> sample_points(int samples) {
 
 Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor, const Progress& progress) {
   Film film = make_film(eye.width, eye.height);
+  if (options.light && options.light->options.passes > 0) film.error.assign(film.color.size(), 0);
   const std::vector<std::array<double, 2>> samples = sample_points(options.samples);
   const int columns = (eye.width + kTile - 1) / kTile, rows = (eye.height + kTile - 1) / kTile;
   const std::uint64_t total = static_cast<std::uint64_t>(eye.width) * static_cast<std::uint64_t>(eye.height) * samples.size();
@@ -59,8 +105,10 @@ Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptio
   executor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t tile) {
     const int x0 = static_cast<int>(tile % static_cast<std::size_t>(columns)) * kTile, y0 = static_cast<int>(tile / static_cast<std::size_t>(columns)) * kTile;
     const int x1 = std::min(x0 + kTile, eye.width), y1 = std::min(y0 + kTile, eye.height);
+    std::vector<Pixel> pixels;
     for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) draw_pixel(scene, eye, options, samples, x, y, film);
+      for (int x = x0; x < x1; ++x) pixels.push_back({x, y});
+    draw_pixels(scene, eye, options, samples, pixels, film);
     const std::uint64_t rays = static_cast<std::uint64_t>(x1 - x0) * static_cast<std::uint64_t>(y1 - y0) * samples.size();
     report(progress, "tracing", done.fetch_add(rays) + rays, total, "rays");
   });

@@ -17,6 +17,7 @@ struct Film {
   std::vector<std::array<float, 3>> normal;   ///< (x, y, z) in the frame of the room at the point seen
   std::vector<std::int32_t> object;           ///< index of the part, −1 a wall without panel, −2 the background
   std::vector<std::int32_t> bounces;
+  std::vector<float> error;                   ///< standard error of the colour's noisiest channel (`integrator: path`), else empty
   std::vector<float> weight;                  ///< largest channel of the mirrors' weight
 };
 

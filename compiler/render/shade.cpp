@@ -1,11 +1,12 @@
-// Mirror objects: reflection in the product metric. Glass: Snell and Fresnel for unpolarised light (Born & Wolf §1.5); both branches are
-// followed while their share counts, so that no random number is needed.
+// Mirror objects: reflection in the product metric. Glass: both branches are followed while their share counts, so that no random number
+// is needed for what the eye sees through it.
 #include "compiler/render/shade.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "compiler/light/shade.h"
+#include "compiler/render/path.h"
 
 namespace orbc::render {
 namespace {
@@ -25,64 +26,90 @@ double fresnel(double cosine, double eta, double& refracted) {
   return (parallel * parallel + across * across) / 2;
 }
 
+double cosine_at(const trace::TraceScene& scene, const trace::SurfacePoint& point) {
+  return std::clamp(-trace::inner(scene.room->room.space, point.arriving, point.normal), 0.0, 1.0);
+}
+
+Color at_most(const Color& c, double most) { return {std::min(c.r, most), std::min(c.g, most), std::min(c.b, most)}; }
+
 struct Walker {
   const trace::TraceScene& scene;
   const DrawOptions& options;
+  light::Random random;
+  Seen& seen;
 
-  Color go_on(const trace::Path& path, const trace::SurfacePoint& at, const Direction& direction, const Color& weight, double share, int depth) {
-    trace::FollowOptions follow;
-    follow.max_bounces = options.max_bounces;
-    follow.min_weight = options.min_weight;
+  void add(const Color& radiance) {
+    seen.radiance = seen.radiance + radiance;
+    seen.most = seen.most + radiance;
+  }
+
+  void go_on(const trace::Path& path, const trace::SurfacePoint& at, const Direction& direction, const Color& weight, double share, int depth) {
+    trace::FollowOptions follow = follow_options(options);
     follow.weight = weight;
     follow.bounces = path.bounces;
     follow.length = path.length;
-    const trace::Path next = trace::follow(scene, trace::leave(scene, at, direction), follow);
-    return light(next, share, depth + 1, nullptr, nullptr);
+    light(trace::follow(scene, trace::leave(scene, at, direction), follow), share, depth + 1);
   }
 
   // What a surface that is neither mirror nor glass shows under the lamps.
-  Color lit(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color) {
+  void lit(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color, double share) {
     const light::LightField& field = *options.light;
-    if (material.kind == scene::MaterialKind::emissive) return light::radiance_out(field, material, color, {});
+    const Color weight = share * path.weight;
+    if (material.kind == scene::MaterialKind::emissive) return add(weight * light::radiance_out(field, material, color, {}));
     const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
     const bool shines = material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
     Color out = light::radiance_out(field, material, color, light::irradiance(field, at));
     if (shines) out = out + light::highlight(field, at, -point.arriving, material, color);
-    const double white = 1 / std::max(field.exposure, 1e-300);
-    return {std::min(out.r, white), std::min(out.g, white), std::min(out.b, white)};
+    const double white = light::white_of(field);
+    out = at_most(out, white);
+    if (field.options.passes == 0) return add(weight * out);
+    // What a guess lifts beyond white must not be cut off guess by guess: their mean would become too dark.
+    const Color more = color * passed_on(*scene.room, options, at, random);
+    const Color kept{out.r < white ? more.r : 0, out.g < white ? more.g : 0, out.b < white ? more.b : 0};
+    seen.radiance = seen.radiance + weight * (out + kept);
+    seen.passed_on = seen.passed_on + weight * kept;
+    seen.most = seen.most + white * weight;
   }
 
-  Color light(const trace::Path& path, double share, int depth, trace::SurfacePoint* first, bool* hit) {
-    if (path.cut_off || path.hit.target == trace::Target::nothing) return options.background;
+  void light(const trace::Path& path, double share, int depth) {
+    if (path.cut_off || path.hit.target == trace::Target::nothing) return add(share * options.background);
     const trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
-    if (first) *first = point, *hit = true;
+    if (depth == 0) seen.surface = point, seen.hit = true;
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
     const Color color = surface_color(*scene.room, point);
-    if (!material) return path.weight * color;
+    if (!material) return add(share * (path.weight * color));
     const bool glows = material->kind == scene::MaterialKind::emissive;
-    if (glows && !options.light) return material->emission * (path.weight * color);
+    if (glows && !options.light) return add((share * material->emission) * (path.weight * color));
     const bool mirror = material->kind == scene::MaterialKind::mirror, glass = material->kind == scene::MaterialKind::glass;
-    if (!(mirror || glass) || depth >= options.max_depth) return path.weight * (options.light ? lit(path, point, *material, color) : color);
-
-    const double cosine = std::clamp(-trace::inner(scene.room->room.space, point.arriving, point.normal), 0.0, 1.0);
-    const Direction reflected = point.arriving + 2 * cosine * point.normal;
-    if (mirror) return go_on(path, point, reflected, path.weight * color, share, depth);
-    const double eta = point.outside ? material->index : 1 / material->index;
-    double refracted_cosine = 0;
-    const double reflectance = fresnel(cosine, eta, refracted_cosine);
-    Color sum;
-    if (share * reflectance >= kLeastShare) sum = sum + reflectance * go_on(path, point, reflected, path.weight, share * reflectance, depth);
-    if (share * (1 - reflectance) >= kLeastShare) {
-      const Direction refracted = (1 / eta) * point.arriving + (cosine / eta - refracted_cosine) * point.normal;
-      trace::SurfacePoint through = point;
-      through.normal = -point.normal;
-      sum = sum + (1 - reflectance) * go_on(path, through, refracted, point.outside ? path.weight * color : path.weight, share * (1 - reflectance), depth);
+    if (!(mirror || glass) || depth >= options.max_depth) {
+      if (options.light) return lit(path, point, *material, color, share);
+      return add(share * (path.weight * color));
     }
-    return sum;
+    if (mirror) return go_on(path, point, mirrored(scene, point), path.weight * color, share, depth);
+    const Refraction through = refracted(scene, point, material->index);
+    const double back = share * through.reflectance, on = share * (1 - through.reflectance);
+    if (back >= kLeastShare) go_on(path, point, mirrored(scene, point), path.weight, back, depth);
+    if (on < kLeastShare) return;
+    trace::SurfacePoint behind = point;
+    behind.normal = -point.normal;
+    go_on(path, behind, through.direction, point.outside ? path.weight * color : path.weight, on, depth);
   }
 };
 
 }  // namespace
+
+Direction mirrored(const trace::TraceScene& scene, const trace::SurfacePoint& point) {
+  return point.arriving + (2 * cosine_at(scene, point)) * point.normal;
+}
+
+Refraction refracted(const trace::TraceScene& scene, const trace::SurfacePoint& point, double index) {
+  const double eta = point.outside ? index : 1 / index, cosine = cosine_at(scene, point);
+  double onward = 0;
+  Refraction result;
+  result.reflectance = fresnel(cosine, eta, onward);
+  result.direction = (1 / eta) * point.arriving + (cosine / eta - onward) * point.normal;
+  return result;
+}
 
 Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point) {
   light::SurfaceKey key;
@@ -94,14 +121,22 @@ Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& po
   return light::surface_albedo(room, key);
 }
 
-Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options) {
+trace::FollowOptions follow_options(const DrawOptions& options) {
   trace::FollowOptions follow;
   follow.max_bounces = options.max_bounces;
   follow.min_weight = options.min_weight;
+  return follow;
+}
+
+Seen radiance(const trace::TraceScene& scene, trace::Path path, const DrawOptions& options, const light::Random& random) {
   Seen seen;
-  seen.path = trace::follow(scene, ray, follow);
-  seen.radiance = Walker{scene, options}.light(seen.path, 1, 0, &seen.surface, &seen.hit);
+  seen.path = std::move(path);
+  Walker{scene, options, random, seen}.light(seen.path, 1, 0);
   return seen;
+}
+
+Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options, const light::Random& random) {
+  return radiance(scene, trace::follow(scene, ray, follow_options(options)), options, random);
 }
 
 }  // namespace orbc::render

@@ -1,4 +1,5 @@
 #pragma once
+#include "compiler/light/random.h"
 #include "compiler/render/draw.h"
 
 namespace orbc::render {
@@ -6,13 +7,31 @@ namespace orbc::render {
 /// What one ray brings back.
 struct Seen {
   scene::Color radiance;
+  scene::Color passed_on;           ///< the part of it that surfaces passed on (`integrator: path`): a random guess, unlike the rest
+  scene::Color most;                ///< a mean of samples never shows more: white, seen by way of the mirrors
   trace::Path path;                 ///< to the first surface that is not a mirror on a wall
   bool hit = false;
   trace::SurfacePoint surface;      ///< there, if hit
 };
 
-/// Radiance along a ray: plain colours in scenes without lamps, else their light (DrawOptions::light); mirrors and glass among the objects followed to `max_depth`.
-[[nodiscard]] Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options);
+/// Radiance along a ray: plain colours in scenes without lamps, else their light (DrawOptions::light) and, with `integrator: path`, one guess
+/// of what surfaces pass on to each other; mirrors and glass among the objects followed to `max_depth`.
+[[nodiscard]] Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options,
+                            const light::Random& random = light::Random(0));
+/// The same for a ray that has been followed already, with the options of `follow_options`.
+[[nodiscard]] Seen radiance(const trace::TraceScene& scene, trace::Path path, const DrawOptions& options,
+                            const light::Random& random = light::Random(0));
+[[nodiscard]] trace::FollowOptions follow_options(const DrawOptions& options);
+
+/// The direction of the ray that a mirror object sends back from a point of it.
+[[nodiscard]] trace::Direction mirrored(const trace::TraceScene& scene, const trace::SurfacePoint& point);
+/// Glass: the share of light that is sent back, and the direction of the rest.
+struct Refraction {
+  double reflectance = 1;
+  trace::Direction direction;
+};
+/// Formula: Snell; Fresnel for unpolarised light (Born & Wolf, Principles of Optics, §1.5); 1 at total reflection.
+[[nodiscard]] Refraction refracted(const trace::TraceScene& scene, const trace::SurfacePoint& point, double index);
 
 /// The colour of a surface point without any light: flat, checker cell, or texel (nearest) times colour.
 [[nodiscard]] scene::Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point);

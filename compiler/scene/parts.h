@@ -37,6 +37,7 @@ struct RoomFacts {
 [[nodiscard]] std::vector<Object> read_objects(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts);
+[[nodiscard]] BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator);
 [[nodiscard]] CoverSpec read_cover(Reader& reader, const Node& node, CoverSpec cover);
 
 /// The number of a wall from a key of `walls`, checked against the room; 0 when it is none.

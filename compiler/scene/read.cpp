@@ -51,7 +51,7 @@ Node empty_map() {
 Scene read_root(Reader& reader, const Node& root) {
   Scene scene;
   scene.span = root.span;
-  const Fields fields(reader, root, "the scene", {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "camera", "cover"});
+  const Fields fields(reader, root, "the scene", {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "integrator", "bake", "camera", "cover"});
   if (!fields.is_map()) return scene;
   read_version(fields);
   scene.allow_non_orbifold = fields.boolean("allow_non_orbifold", false);
@@ -68,6 +68,8 @@ Scene read_root(Reader& reader, const Node& root) {
   if (fields.has("lights")) scene.lamps = read_lamps(reader, part("lights"), facts);
   scene.ambient = fields.color("ambient", scene.ambient);
   scene.exposure = fields.number("exposure", scene.exposure, {0, 1e6, true});
+  scene.integrator = fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
+  scene.bake = read_bake(reader, part("bake"), scene.integrator);
   scene.camera = read_camera(reader, part("camera"), facts);
   scene.cover = read_cover(reader, part("cover"), scene.cover);
   return scene;

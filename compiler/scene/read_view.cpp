@@ -94,6 +94,21 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
   return camera;
 }
 
+BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator) {
+  BakeSpec bake;
+  const Fields fields(reader, node, "the bake", {"bounces", "mirrors", "samples", "quality", "seed"});
+  bake.bounces = fields.integer("bounces", bake.bounces, 0, 64);
+  bake.mirrors = fields.integer("mirrors", bake.mirrors, 0, 12);
+  if (fields.has("samples")) bake.samples = fields.integer("samples", 256, 1, 65536);
+  bake.quality = fields.choice<BakeQuality>("quality", bake.quality,
+                                            {{"draft", BakeQuality::draft}, {"normal", BakeQuality::normal}, {"fine", BakeQuality::fine}});
+  bake.seed = fields.integer("seed", bake.seed, 0, 1'000'000'000);
+  if (integrator == Integrator::path) return bake;
+  for (const char* key : {"bounces", "samples", "seed"})
+    fields.no_effect(key, "it belongs to `integrator: path`; without it surfaces pass no light on");
+  return bake;
+}
+
 CoverSpec read_cover(Reader& reader, const Node& node, CoverSpec cover) {
   const Fields fields(reader, node, "the cover", {"max_bounces", "min_weight", "min_pixels", "background"});
   cover.max_bounces = fields.integer("max_bounces", cover.max_bounces, 0, 1000);

@@ -159,6 +159,18 @@ struct Lamp {
   SourceSpan span;
 };
 
+/// Which light there is, in both roads: what comes straight from lamps or over mirrors (`direct`), or also what matte surfaces pass on to
+/// each other, and emissive objects (`path`).
+enum class Integrator { direct, path };
+enum class BakeQuality { draft, normal, fine };
+struct BakeSpec {
+  int bounces = 64;                 ///< `path`: how often matte surfaces may pass light on; the tracer keeps to it too
+  int mirrors = 2;                  ///< mirrors on walls, floor and ceiling that the light of a lamp is followed over, in both roads
+  std::optional<int> samples;       ///< `path`: directions asked at a point of the baked light; missing = the quality's
+  BakeQuality quality = BakeQuality::normal;
+  int seed = 1;                     ///< of the tracer's random numbers
+};
+
 enum class Projection { perspective, panorama, cylinder };
 struct LookAtObject { std::string name; };
 struct LookDirection { Angle azimuth, elevation; };              ///< azimuth from the +x direction of the eye's frame, counter-clockwise
@@ -188,6 +200,8 @@ struct Scene {
   std::vector<Lamp> lamps;
   Color ambient{0, 0, 0};           ///< light from everywhere; a scene without lamps is shown in its plain colours
   double exposure = 1;
+  Integrator integrator = Integrator::direct;
+  BakeSpec bake;
   Camera camera;
   CoverSpec cover;
   std::string folder;               ///< of the scene file; paths of meshes and textures are relative to it

@@ -1,0 +1,27 @@
+#pragma once
+#include "compiler/light/shade.h"
+
+namespace orbc::light {
+
+/// The straight path from a surface point to a point of the cover: to a sample of a lamp's image.
+struct Way {
+  trace::Direction start;           ///< unit, at the surface point
+  double length = 0, arc = 0;       ///< of the path, and of its floor geodesic
+  bool exists = false;
+};
+
+/// In: on S² the number of half turns beyond the nearest. None to a point's own antipode, which is seen from all sides at once.
+[[nodiscard]] Way way_to(geometry::Space space, const geometry::Position& from, const geometry::Position& to, int sheet);
+
+/// What a shadow ray brings along from a sample of a lamp's image: nothing, or the weight of the mirrors that turned it back.
+[[nodiscard]] scene::Color arriving(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample,
+                                    const LightPoint& point, const Way& way);
+
+/// Light per unit of power that would come from a sample if nothing stood between, on a surface across the path; times its profile.
+[[nodiscard]] double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample,
+                                const LightPoint& point, const Way& way);
+
+/// The ray that leaves a lit point.
+[[nodiscard]] trace::Ray leaving(const LightField& field, const LightPoint& point, const trace::Direction& direction);
+
+}  // namespace orbc::light
