@@ -175,10 +175,11 @@ struct Walker {
   }
 };
 
+/// One ray: set up and resolved by the kernels of many, so that it gives the same bits alone and in a stream.
 template <Space kSpace, int kTerms, bool kAny, bool kCount>
 bool walk_one(const Walk& walk) {
   Walker<kSpace, kTerms, kAny, kCount> walker;
-  walker.ray = chart_ray<kSpace>(*walk.chart, *walk.ray, walk.height_bound, walk.best->t);
+  set_up<kSpace>(walk, 0, 1, &walker.ray);
   if (walker.ray.misses) return false;
   Way way = walker.begin(*walk.ray, *walk.best);
   do {
@@ -186,7 +187,7 @@ bool walk_one(const Walk& walk) {
     while (touches && !(way.child & kBlock)) touches = walker.visit_node(walk, way);
     if (touches && !walker.visit_block(walk, way.child)) return true;
   } while (walker.pop(way));
-  walker.resolve(walk);
+  if constexpr (!kAny) resolve_many<kSpace>(walk, 0, 1, &walker.pending);
   return walker.found;
 }
 

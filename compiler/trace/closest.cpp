@@ -52,15 +52,18 @@ std::vector<Hit> closest(const TraceScene& scene, std::span<const Ray> rays) {
   std::vector<Hit> hits;
   hits.reserve(rays.size());
   BvhHit found[kPiece];
+  Exit exits[kPiece];
   for (std::size_t first = 0; first < rays.size(); first += kPiece) {
     const std::size_t count = std::min(kPiece, rays.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       found[i].triangle = kNone;
-      found[i].t = scene.all_inside ? longest_in_room(scene, rays[first + i]) : exit_of(scene.prism, rays[first + i]).t;
+      if (!scene.all_inside) exits[i] = exit_of(scene.prism, rays[first + i]);
+      found[i].t = scene.all_inside ? longest_in_room(scene, rays[first + i]) : exits[i].t;
     }
     scene.objects->closest_many(&rays[first], found, count);
     for (std::size_t i = 0; i < count; ++i)
-      hits.push_back(found[i].triangle != kNone ? hit_of_triangle(scene.objects->soup(), found[i]) : hit_of_exit(exit_of(scene.prism, rays[first + i])));
+      hits.push_back(found[i].triangle != kNone ? hit_of_triangle(scene.objects->soup(), found[i])
+                                                : hit_of_exit(scene.all_inside ? exit_of(scene.prism, rays[first + i]) : exits[i]));
   }
   return hits;
 }

@@ -1,4 +1,7 @@
-// Set-up of eight rays for a chart: the same as chart_ray(), side by side. Included once per instruction set, hence the guard.
+// Set-up of up to eight rays for a chart, side by side: the re-basing at the foot of the perpendicular is the performance study's first idea;
+// it costs one square root and makes both the footprint and the node test those of a straight ray. The feet are computed in double and rounded
+// once, so a bound of the float arithmetic alone (a few ulp of the chart's extent) is what the paddings cover. What a ray gets does not depend
+// on its neighbours. Included once per instruction set, hence the guard.
 #if defined(ORBC_TRACE_SET_UP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ORBC_TRACE_SET_UP_INL_H
 #undef ORBC_TRACE_SET_UP_INL_H
@@ -26,13 +29,13 @@ struct alignas(64) Feet {
 };
 
 template <geometry::Space kSpace>
-HWY_INLINE void find_feet(const Chart& chart, const double in[9][8], Feet& feet) {
+HWY_INLINE void find_feet(const Chart& chart, const double in[9][8], std::size_t count, Feet& feet) {
   using geometry::Space;
   const hn::CappedTag<double, 4> d;
   const hn::Rebind<float, decltype(d)> df;
   const auto& map = chart.chart_from_room;
   constexpr double k = geometry::curvature(kSpace);
-  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto load = [&](int f) { return hn::Load(d, in[f] + i); };
     const auto put = [&](V4f v, float* to) { hn::Store(hn::DemoteTo(df, v), df, to + i); };
     V4f pw = load(0), px = load(1), py = load(2), vw = load(3), vx = load(4), vy = load(5);
@@ -78,11 +81,11 @@ HWY_INLINE void find_feet(const Chart& chart, const double in[9][8], Feet& feet)
 
 /// Arcs of the starts from their feet, to a few ulp of float.
 template <geometry::Space kSpace>
-HWY_INLINE void find_arcs(const Feet& feet, float s0[8]) {
+HWY_INLINE void find_arcs(const Feet& feet, std::size_t count, float s0[8]) {
   using geometry::Space;
   const hn::CappedTag<double, 4> dd;
   const hn::Rebind<float, decltype(dd)> d;
-  for (std::size_t i = 0; i < 8; i += hn::Lanes(dd)) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(dd)) {
     const auto over = hn::DemoteTo(d, hn::Load(dd, feet.over + i));
     if constexpr (kSpace == Space::euclidean) {
       hn::Store(over, d, s0 + i);
@@ -106,25 +109,25 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
   using namespace chart_ray_detail;
   const Chart& chart = *walk.chart;
   alignas(64) double in[9][8];
-  for (std::size_t lane = 0; lane < 8; ++lane) {
+  for (std::size_t lane = 0; lane < (count <= 4 ? 4 : 8); ++lane) {
     const Ray& ray = walk.ray[first + std::min(lane, count - 1)];
     const double fields[9] = {ray.at.w, ray.at.x, ray.at.y, ray.along.w, ray.along.x, ray.along.y, ray.z, ray.c, ray.m};
     for (int f = 0; f < 9; ++f) in[f][lane] = fields[f];
   }
-  Feet feet;
-  find_feet<kSpace>(chart, in, feet);
-  for (int lane = 0; lane < 8; ++lane) {
+  Feet feet{};
+  find_feet<kSpace>(chart, in, count, feet);
+  for (std::size_t lane = 0; lane < count; ++lane) {
     feet.z[lane] = static_cast<float>(in[6][lane]);
     feet.c[lane] = static_cast<float>(in[7][lane]);
     feet.m[lane] = static_cast<float>(in[8][lane]);
   }
   alignas(64) float s0[8];
-  find_arcs<kSpace>(feet, s0);
+  find_arcs<kSpace>(feet, count, s0);
   const hn::CappedTag<float, 8> d;
   const float extent = chart.extent, ulp = static_cast<float>(kUlp);
   const float margin = 16 * ulp * extent, margin_z = 16 * ulp * std::max(static_cast<float>(walk.height_bound), 0.02f) + 4e-9f * extent;
   alignas(64) float scale[3][8], near_offset[3][8], far_offset[3][8], at_scaled[3][8], error[3][8], h_0[8];
-  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const float* num[3] = {feet.r, feet.r, feet.c};
     const float* den[3] = {feet.ex, feet.ey, feet.m};
     const float* where[3] = {feet.cx, feet.cy, feet.z};

@@ -74,7 +74,7 @@ struct Embree {
   RTCDevice device;
   RTCScene scene;
   explicit Embree(const place::PlacedMesh& mesh) {
-    device = rtcNewDevice("threads=2,isa=avx2");
+    device = rtcNewDevice("threads=1,isa=avx2");
     scene = rtcNewScene(device);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -7,6 +7,7 @@
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
+#include "compiler/render/shade.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;
@@ -39,7 +40,67 @@ place::Eye eye_in(const place::PlacedRoom& room) {
   return eye;
 }
 
+// A room with a mirror ball, a glass ball and a matte box, its walls mirrors, under one lamp or in its plain colours.
+place::PlacedRoom furnished_room(const char* notation, bool lamp, scene::Scene& s) {
+  s = scene::default_scene(*notation::parse(notation));
+  s.room.height = 0.7;
+  s.room.floor.material.pattern = scene::Pattern::checker;
+  const auto add = [&](auto body, scene::MaterialKind kind, double r, double degrees) {
+    scene::Object object;
+    object.shape = body;
+    object.material.emplace().kind = kind;
+    object.material->color = {0.9, 0.7, 0.5};
+    object.place.floor = scene::AtPolar{r, Angle::from_degrees(degrees)};
+    s.objects.push_back(object);
+  };
+  add(scene::SphereSpec{0.08}, scene::MaterialKind::mirror, 0.2, 20);
+  add(scene::SphereSpec{0.07}, scene::MaterialKind::glass, 0.2, 150);
+  add(scene::BoxSpec{{0.1, 0.1, 0.1}}, scene::MaterialKind::matte, 0.2, 270);
+  if (lamp) {
+    scene::Lamp hung;
+    hung.kind = scene::LampKind::sphere;
+    hung.place.floor = scene::AtPolar{0.1, Angle::from_degrees(200)};
+    hung.place.z = 0.6;
+    s.lamps = {hung};
+  }
+  return place::furnish(s, *room::realise(s.orbifold))->room;
+}
+
 }  // namespace
+
+TEST_CASE("drawn in streams the film is that of single rays, bit by bit", "[render]") {
+  for (const char* notation : {"*222", "*2222", "*22222"})
+    for (const bool lamp : {false, true}) {
+      scene::Scene s;
+      const place::PlacedRoom room = furnished_room(notation, lamp, s);
+      const trace::TraceScene scene = trace::prepare(room);
+      const light::LightField light = *light::prepare_light(s, room);
+      render::DrawOptions options;
+      options.samples = 3;
+      if (lamp) options.light = &light;
+      const place::Eye eye = eye_in(room);
+      const render::Film film = render::draw(scene, eye, options, serial_executor());
+      const auto points = render::sample_points(options.samples);
+      int different = 0, objects = 0;
+      for (int y = 0; y < eye.height; ++y)
+        for (int x = 0; x < eye.width; ++x) {
+          scene::Color sum;
+          const auto pixel = static_cast<std::size_t>(y * eye.width + x);
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            const render::Seen seen = render::radiance(scene, render::eye_ray(eye, x + points[i][0], y + points[i][1]), options);
+            sum = sum + seen.radiance;
+            if (i > 0) continue;
+            different += film.bounces[pixel] != seen.path.bounces || (seen.hit && film.depth[pixel] != static_cast<float>(seen.path.length));
+            objects += seen.hit && seen.surface.kind == place::PartKind::object;
+          }
+          sum = (1.0 / 3) * sum;
+          different += !(sum == film.color[pixel]);
+        }
+      INFO(notation << (lamp ? " lit" : " unlit"));
+      CHECK(different == 0);
+      CHECK(objects > 20);
+    }
+}
 
 TEST_CASE("samples of a pixel are distinct points of it, centred", "[render]") {
   for (const int n : {1, 2, 3, 4, 5, 9, 16, 64}) {

@@ -174,3 +174,26 @@ TEST_CASE("a scene without objects and one with a single triangle work", "[trace
   CHECK(occluded(one, ray_from(Space::euclidean, {{}, 0.5}, {{0, 1, 0}, 0}), 0.31));
   CHECK_FALSE(occluded(one, ray_from(Space::euclidean, {{}, 0.5}, {{0, 1, 0}, 0}), 0.29));
 }
+
+TEST_CASE("a ray meets the same thing alone and among others, bit by bit", "[trace]") {
+  Random random{31};
+  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2), regular_room(Space::hyperbolic, 5, 2), lune(3)}) {
+    auto placed = furnished(room);
+    placed.parts.push_back(torus_knot(room.space, room.corners.size() > 2 ? Point() : at_polar(room.space, 0.4, 1), 0.2, 0.06, 0.5, 40, 8));
+    placed.parts.push_back(soup_of(placed, 40, 0.4, random));  // near to each other: ends in double
+    placed.looks.resize(1);
+    const TraceScene scene = prepare(placed);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 2000; ++i) rays.push_back(random_ray(placed, random));
+    const std::vector<Hit> together = closest(scene, rays);
+    const std::vector<Path> paths = follow(scene, rays);
+    int different = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit alone = closest(scene, rays[i]);
+      const Path path = follow(scene, rays[i]);
+      different += alone.target != together[i].target || alone.t != together[i].t || alone.triangle != together[i].triangle || alone.b[1] != together[i].b[1];
+      different += path.length != paths[i].length || path.bounces != paths[i].bounces || path.hit.t != paths[i].hit.t || path.last.at.x != paths[i].last.at.x;
+    }
+    CHECK(different == 0);
+  }
+}
