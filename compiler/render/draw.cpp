@@ -42,8 +42,12 @@ struct Sums {
   /// Standard error of the mean in the noisiest channel; of a single guess the guess itself.
   float error(double n) const {
     if (n < 2) return static_cast<float>(largest(guess));
-    const auto variance = [&](double sum, double sum2) { return std::max(0.0, sum2 - sum * sum / n) / (n * (n - 1)); };
-    return static_cast<float>(std::sqrt(largest({variance(guess.r, guess2.r), variance(guess.g, guess2.g), variance(guess.b, guess2.b)})));
+    // A channel that is white is white: its guesses no longer show.
+    const auto variance = [&](double sum, double sum2, double all, double bound) {
+      return all >= bound ? 0 : std::max(0.0, sum2 - sum * sum / n) / std::max(1.0, n * (n - 1));
+    };
+    return static_cast<float>(std::sqrt(largest({variance(guess.r, guess2.r, radiance.r, most.r), variance(guess.g, guess2.g, radiance.g, most.g),
+                                                 variance(guess.b, guess2.b, radiance.b, most.b)})));
   }
 };
 

@@ -1,0 +1,137 @@
+// Laws of light that surfaces pass on.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/light/guide.h"
+#include "compiler/light/random.h"
+#include "compiler/light/way.h"
+#include "compiler/notation/parse.h"
+#include "compiler/place/furnish.h"
+#include "compiler/place/locate.h"
+#include "compiler/room/realise.h"
+#include "compiler/room/room.h"
+#include "compiler/scene/defaults.h"
+
+using namespace orbc;
+using geometry::Space;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+struct Lit {
+  place::PlacedRoom room;
+  light::LightField field;
+};
+
+Lit lit(const char* notation, double height, bool mirrors) {
+  scene::Scene s = scene::default_scene(notation::parse(notation).value());
+  s.room.height = height;
+  for (scene::Wall& wall : s.room.walls)
+    if (!mirrors) wall.mirrors.clear();
+  scene::Lamp lamp;
+  lamp.kind = scene::LampKind::point;
+  lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
+  lamp.place.z = 0.6 * height;
+  s.lamps = {lamp};
+  Lit l{place::furnish(s, room::realise(s.orbifold, s.room.shape).value()).value().room, {}};
+  light::LightOptions options;
+  options.bounces = 0, options.passes = 4, options.cut = 0;
+  l.field = light::prepare_light(s, l.room, options).value();
+  return l;
+}
+
+}  // namespace
+
+TEST_CASE("guided directions weigh the hemisphere as the cosine does", "[light]") {
+  for (const char* notation : {"*222", "*2222", "*22222"})
+    for (const bool mirrors : {false, true}) {
+      const Lit l = lit(notation, 0.8, mirrors);
+      light::Random random(11);
+      for (int place = 0; place < 6; ++place) {
+        const double phi = 2 * kPi * random.next(), r = place::reach(l.room.room, phi) * random.next();
+        const geometry::Point at = geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
+        const light::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
+        const light::Guide guide = light::guide_at(l.field, point);
+        double ones = 0, heights = 0, squares = 0;
+        constexpr int kCount = 40000;
+        for (int i = 0; i < kCount; ++i) {
+          const light::Chosen c = light::choose(guide, random.next_three());
+          ones += c.weight, heights += c.weight * c.direction.z, squares += c.weight * c.weight;
+        }
+        const double error = std::sqrt(squares / kCount / kCount);
+        CHECK(std::fabs(ones / kCount - 1) < 4 * error);              // ∫ cosθ dω/π
+        CHECK(std::fabs(heights / kCount - 2.0 / 3) < 4 * error);     // ∫ cos²θ dω/π
+      }
+    }
+}
+
+TEST_CASE("a lamp seen from where it shines: both ways of counting its light agree", "[light]") {
+  // Power per area by the falloff, times area, against the share of directions that lead there: in all three spaces, from the lamp's side.
+  for (const char* notation : {"*222", "*2222", "*22222"}) {
+    const Lit l = lit(notation, 0.8, false);
+    const geometry::Position lamp = l.field.lamps[0].centre;
+    const Space space = l.room.room.space;
+    light::Random random(5);
+    constexpr int kCount = 400000;
+    double by_directions = 0;
+    for (int i = 0; i < kCount; ++i) {
+      const double z = 2 * random.next() - 1, turn = 2 * kPi * random.next(), h = std::sqrt(1 - z * z);
+      const light::Frame frame = light::frame_at(space, lamp.floor);
+      const trace::Ray ray = trace::ray_from(space, lamp, light::global(frame, {h * std::cos(turn), h * std::sin(turn), z}));
+      const trace::Hit hit = trace::closest(l.field.scene, ray);
+      const geometry::Position at = trace::position_at(space, ray, hit.t);
+      by_directions += hit.target == trace::Target::floor && geometry::distance(space, at.floor, {}) < 0.25;
+    }
+    by_directions *= 10.0 / kCount;
+    double by_falloff = 0;
+    constexpr int kSteps = 200;
+    for (int i = 0; i < kSteps; ++i)
+      for (int j = 0; j < kSteps; ++j) {
+        const double r = 0.25 * (i + 0.5) / kSteps, phi = 2 * kPi * (j + 0.5) / kSteps;
+        const geometry::Point at = geometry::point_along(space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
+        by_falloff += light::irradiance(l.field, {{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false}).r * geometry::sin_k(space, r) * 0.25 / kSteps * 2 * kPi / kSteps;
+      }
+    INFO(notation << ": " << by_directions << ", " << by_falloff);
+    CHECK(by_directions == Approx(by_falloff).epsilon(0.012));
+  }
+}
+
+TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a", "[light]") {
+  // Two patches, each a third of the floor and of the ceiling: the share of the light that leaves one and meets the other, times its area.
+  for (const char* notation : {"*222", "*2222", "*22222"})
+    for (const bool mirrors : {false, true}) {
+      const Lit l = lit(notation, 0.5, mirrors);
+      const Space space = l.room.room.space;
+      light::Random random(8);
+      const auto in_floor_patch = [&](const geometry::Point& p) { return geometry::distance(space, p, {}) < 0.3; };
+      const auto in_ceiling_patch = [&](const geometry::Point& p) { return p.x / p.w > 0.05; };
+      double there = 0, back = 0, squares = 0;
+      constexpr int kCount = 120000;
+      for (const bool from_floor : {true, false}) {
+        for (int i = 0; i < kCount; ++i) {
+          const double phi = 2 * kPi * random.next(), reach = place::reach(l.room.room, phi), r = reach * random.next();
+          const geometry::Point at = geometry::point_along(space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
+          if (!(from_floor ? in_floor_patch(at) : in_ceiling_patch(at))) continue;
+          const double area = geometry::sin_k(space, r) * reach * 2 * kPi / kCount, up = from_floor ? 1 : -1;
+          const double z = from_floor ? 0 : l.room.height;
+          const light::LightPoint point{{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false};
+          const light::Chosen chosen = light::choose(light::guide_at(l.field, point), random.next_three());
+          if (chosen.weight <= 0) continue;
+          trace::FollowOptions follow;
+          follow.max_bounces = 40;
+          const trace::Path path = trace::follow(l.field.scene, light::leaving(l.field, point, chosen.direction), follow);
+          if (path.hit.target != (from_floor ? trace::Target::ceiling : trace::Target::floor)) continue;
+          const geometry::Point end = trace::position_at(space, path.last, path.hit.t).floor;
+          if (!(from_floor ? in_ceiling_patch(end) : in_floor_patch(end))) continue;
+          const double share = area * chosen.weight * path.weight.r;
+          (from_floor ? there : back) += share;
+          squares += share * share;
+        }
+      }
+      INFO(notation << (mirrors ? " with mirrors" : "") << ": " << there << ", " << back << " ± " << std::sqrt(squares));
+      CHECK(there > 0.01);
+      CHECK(std::fabs(there - back) < 4 * std::sqrt(squares));
+    }
+}

@@ -1,0 +1,204 @@
+#include "compiler/render/path.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/notation/parse.h"
+#include "compiler/place/furnish.h"
+#include "compiler/render/shade.h"
+#include "compiler/room/realise.h"
+#include "compiler/scene/defaults.h"
+
+using namespace orbc;
+
+namespace {
+
+struct Lit {
+  scene::Scene scene;
+  place::PlacedRoom room;
+  light::LightField field;
+  trace::TraceScene traced;
+};
+
+std::unique_ptr<Lit> lit(const scene::Scene& scene, int passes, int mirrors = 2) {
+  auto result = std::make_unique<Lit>();
+  result->scene = scene;
+  result->room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
+  light::LightOptions options;
+  options.bounces = mirrors, options.passes = passes, options.cut = 0;
+  result->field = light::prepare_light(result->scene, result->room, options).value();
+  result->traced = trace::prepare(result->room);
+  return result;
+}
+
+render::DrawOptions drawing(const Lit& l, int samples) {
+  render::DrawOptions options;
+  options.light = &l.field;
+  options.samples = samples;
+  options.max_bounces = 400;
+  return options;
+}
+
+place::Eye eye_in(const place::PlacedRoom& room, int width, int height) {
+  place::Eye eye;
+  eye.room_from_eye = geometry::translation_by(room.room.space, 0.05 * room.room.inradius, 0.03 * room.room.inradius);
+  eye.z = 0.3 * room.height;
+  eye.width = width, eye.height = height;
+  return eye;
+}
+
+// A room whose every surface has one colour, without lamps; a ball stands in it.
+scene::Scene bare(const char* notation, const scene::Color& albedo, bool mirrors) {
+  scene::Scene s = scene::default_scene(notation::parse(notation).value());
+  scene::Material plain;
+  plain.color = albedo;
+  s.room.floor.material = s.room.ceiling.material = plain;
+  for (scene::Wall& wall : s.room.walls) {
+    wall.material = plain;
+    if (!mirrors) wall.mirrors.clear();
+    for (scene::Mirror& mirror : wall.mirrors) mirror.frame.reset(), mirror.reflectance = 0.9;
+  }
+  s.objects.resize(1);
+  s.objects[0].shape = scene::SphereSpec{0.12};
+  s.objects[0].place.floor = scene::AtPolar{0.3, Angle::from_degrees(5)};
+  s.objects[0].material = plain;
+  s.lamps.clear();
+  return s;
+}
+
+struct Mean {
+  double value = 0, error = 0;      ///< of the picture, red
+};
+Mean mean_of(const render::Film& film) {
+  Mean mean;
+  double squares = 0;
+  for (std::size_t i = 0; i < film.color.size(); ++i) mean.value += film.color[i].r, squares += static_cast<double>(film.error[i]) * film.error[i];
+  const double n = static_cast<double>(film.color.size());
+  mean.value /= n, mean.error = std::sqrt(squares) / n;
+  return mean;
+}
+
+const char* const kRooms[] = {"*222", "*2222", "*22222"};  // S², E², H²
+
+}  // namespace
+
+TEST_CASE("a room all of one colour under ambient light glows like a furnace: ρ·a/(1 − ρ)", "[render]") {
+  for (const char* notation : kRooms)
+    for (const double albedo : {0.3, 0.7}) {
+      scene::Scene s = bare(notation, {albedo, albedo, albedo}, false);
+      s.ambient = {0.1, 0.1, 0.1};
+      const auto l = lit(s, 64);
+      const Mean seen = mean_of(render::draw(l->traced, eye_in(l->room, 24, 18), drawing(*l, 64), serial_executor()));
+      const double expected = 0.1 * albedo / (1 - albedo);
+      INFO(notation << ", albedo " << albedo << ": " << seen.value << " ± " << seen.error << ", expected " << expected);
+      CHECK(seen.error < 0.004 * expected);
+      CHECK(std::fabs(seen.value - expected) < std::min(4 * seen.error, 0.01 * expected));
+    }
+}
+
+TEST_CASE("every matte surface in an emissive room takes on ρ times its light", "[render]") {
+  for (const char* notation : kRooms) {
+    scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, false);
+    scene::Material glow;
+    glow.kind = scene::MaterialKind::emissive;
+    glow.color = {0.4, 0.4, 0.4};
+    s.room.floor.material = s.room.ceiling.material = glow;
+    for (scene::Wall& wall : s.room.walls) wall.material = glow;
+    const auto l = lit(s, 8);
+    const render::Film film = render::draw(l->traced, eye_in(l->room, 32, 24), drawing(*l, 16), serial_executor());
+    double on_ball = 0;
+    int ball = 0;
+    for (std::size_t i = 0; i < film.color.size(); ++i) {
+      const auto part = static_cast<std::size_t>(std::max(film.object[i], 0));
+      if (film.object[i] < 0 || l->room.parts[part].kind != place::PartKind::object) {
+        CHECK(film.color[i].r == Approx(0.4).margin(0.2));  // pixels at the ball's edge are mixed
+        continue;
+      }
+      on_ball += film.color[i].r, ++ball;
+    }
+    INFO(notation << ": " << ball << " pixels of the ball");
+    REQUIRE(ball > 3);
+    CHECK(on_ball / ball == Approx(0.2).margin(0.03));
+  }
+}
+
+TEST_CASE("mirrors that keep everything change nothing in a furnace; others darken it as they must", "[render]") {
+  for (const char* notation : kRooms) {
+    scene::Scene s = bare(notation, {0.6, 0.6, 0.6}, true);
+    s.ambient = {0.1, 0.1, 0.1};
+    for (scene::Wall& wall : s.room.walls)
+      for (scene::Mirror& mirror : wall.mirrors) mirror.reflectance = 1;
+    s.objects[0].material->kind = scene::MaterialKind::mirror;
+    s.objects[0].material->color = {1, 1, 1};
+    const auto l = lit(s, 64);
+    const Mean seen = mean_of(render::draw(l->traced, eye_in(l->room, 24, 18), drawing(*l, 36), serial_executor()));
+    INFO(notation << ": " << seen.value << " ± " << seen.error);
+    CHECK(std::fabs(seen.value - 0.15) < std::min(4 * seen.error, 0.0015));
+  }
+}
+
+TEST_CASE("where nothing else reflects, paths bring a ball nothing", "[render]") {
+  scene::Scene s = bare("*22222", {0, 0, 0}, false);
+  scene::Lamp lamp;
+  lamp.place.z = 0.7;
+  s.lamps = {lamp};
+  s.objects[0].material->color = {0.8, 0.7, 0.6};
+  const auto direct = lit(s, 0), path = lit(s, 8);
+  const render::Film a = render::draw(direct->traced, eye_in(direct->room, 40, 30), drawing(*direct, 1), serial_executor());
+  const render::Film b = render::draw(path->traced, eye_in(path->room, 40, 30), drawing(*path, 1), serial_executor());
+  CHECK(a.error.empty());
+  for (std::size_t i = 0; i < a.color.size(); ++i) CHECK(b.color[i].g == Approx(a.color[i].g).margin(1e-12));
+}
+
+TEST_CASE("the stated error of a path-traced film is the spread between seeds, and a seed is a picture", "[render]") {
+  scene::Scene s = bare("*22222", {0.7, 0.6, 0.5}, true);
+  scene::Lamp lamp;
+  lamp.place.z = 0.75;
+  lamp.radius = 0.04;
+  lamp.power = 1.5;
+  s.lamps = {lamp};
+  auto l = lit(s, 16, 1);
+  const auto draw = [&](std::uint64_t seed, const Executor& executor) {
+    l->field.options.seed = seed;
+    render::DrawOptions options = drawing(*l, 16);
+    options.max_bounces = 6;
+    return render::draw(l->traced, eye_in(l->room, 32, 24), options, executor);
+  };
+  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) { for (std::size_t i = count; i-- > 0;) task(i); };
+  const render::Film a = draw(1, serial_executor()), b = draw(2, serial_executor()), again = draw(1, backwards);
+  double squares = 0, stated = 0;
+  for (std::size_t i = 0; i < a.color.size(); ++i) {
+    CHECK((a.color[i].r == again.color[i].r && a.error[i] == again.error[i]));
+    const double d = a.color[i].r - b.color[i].r;
+    squares += d * d, stated += static_cast<double>(a.error[i]) * a.error[i] + static_cast<double>(b.error[i]) * b.error[i];
+  }
+  INFO("spread " << std::sqrt(squares) << ", stated " << std::sqrt(stated));
+  CHECK(squares > 0);
+  CHECK(std::sqrt(stated / squares) > 0.8);
+  CHECK(std::sqrt(stated / squares) < 1.4);
+  CHECK(render::noise_of(a, 1) > 0);
+}
+
+TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that it gives", "[render]") {
+  for (const char* notation : kRooms) {
+    scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, true);
+    scene::Lamp lamp;
+    lamp.place.z = 0.7;
+    lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
+    s.lamps = {lamp};
+    const auto l = lit(s, 1, 2);
+    const geometry::Point at = geometry::point_along(l->room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), 0.21);
+    const light::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
+    light::Random random(3);
+    double sum = 0, squares = 0;
+    constexpr int kCount = 40000;
+    for (int i = 0; i < kCount; ++i) {
+      const double e = light::irradiance_guess(l->field, point, random.next_three()).r;
+      sum += e, squares += e * e;
+    }
+    const double mean = sum / kCount, error = std::sqrt((squares / kCount - mean * mean) / kCount), all = light::irradiance(l->field, point).r;
+    INFO(notation << ": " << mean << " ± " << error << ", all " << all);
+    CHECK(std::fabs(mean - all) < 4 * error + 0.005 * all);
+  }
+}
