@@ -15,6 +15,7 @@
 
 #include "compiler/cover/automaton.h"
 #include "compiler/cover/rim.h"
+#include "compiler/cover/storeys.h"
 #include "compiler/room/room.h"
 
 namespace orbc::cover {
@@ -33,6 +34,7 @@ struct Beam {
   int sheet = 0;
   std::vector<std::uint16_t> crossings; // per loss of the rim
   Word word;                            // letters of the normal form (orbifolds) or walls passed
+  std::vector<Sill> sills;              // those that bound the rays up and down
 };
 
 /// A copy as one beam sees it.
@@ -43,6 +45,7 @@ struct Seen {
   Wedge wedge;
   Isometry cover_from_room;             // rooms that are no orbifolds
   std::uint64_t nearer_walls = 0;
+  std::vector<Sill> sills;
 };
 
 bool is_integer(const Rational& value) { return denominator(value) == 1; }
@@ -82,7 +85,11 @@ std::optional<Wedge> common(const Wedge& a, const Wedge& b) {
 class Unfolder {
  public:
   Unfolder(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const Rim& rim)
-      : room_(room), spec_(spec), rim_(rim), eye_from_cover_(inverse(eye.room_from_eye)), pixels_(place::pixels_per_radian(eye)) {
+      : room_(room), spec_(spec), rim_(rim), eye_z_(eye.z), eye_from_cover_(inverse(eye.room_from_eye)), pixels_(place::pixels_per_radian(eye)) {
+    for (const WeightedStorey& on : storeys_of(room, spec.max_bounces)) {
+      lowest_ = std::min(lowest_, on.storey.number * room.height);
+      highest_ = std::max(highest_, (on.storey.number + 1) * room.height);
+    }
     const int walls = static_cast<int>(room.room.walls.size());
     for (int wall = 0; wall < walls; ++wall) mirrors_.push_back(room::reflection_in_wall(room.room, wall));
     letter_.assign(static_cast<std::size_t>(walls), -1);
@@ -165,7 +172,7 @@ class Unfolder {
     const auto bearings = bearings_of(eye_from_copy, sheet);
     const bool clockwise = eye_from_copy.reversing != (sheet % 2 == 1);
     for (std::size_t i = 0; i < rim_.edges.size(); ++i) {
-      if (rim_.edges[i].opening < 0) continue;
+      if (rim_.edges[i].openings.empty()) continue;
       const Bearing &a = bearings[i], &b = bearings[(i + 1) % bearings.size()];
       if (const auto wedge = common(beam.wedge, clockwise ? Wedge{b, a} : Wedge{a, b})) go_on(beam, static_cast<int>(i), *wedge, sheet, out);
     }
@@ -202,10 +209,30 @@ class Unfolder {
 
   void go_on(const Beam& beam, int edge, const Wedge& wedge, int sheet, std::vector<Beam>& out) {
     const Rim::Edge& through = rim_.edges[static_cast<std::size_t>(edge)];
-    if (through.opening < 0) return;
+    for (const Opening& opening : through.openings) {
+      std::vector<Sill> sills = beam.sills;
+      if (through.openings.size() > 1 || !sills.empty()) {
+        const Isometry eye_from_copy = eye_from_cover_ * beam.cover_from_room;
+        const Sill wall{eye_from_copy * room_.room.walls[static_cast<std::size_t>(through.wall)].line, sheet, 0, false};
+        const Sill low = at_height(wall, std::max(opening.from, lowest_), true), high = at_height(wall, std::min(opening.to, highest_), false);
+        if (nothing_passes(room_.room.space, sills, low, high, wedge, eye_z_)) continue;
+        if (opening.from > lowest_) narrow(sills, low, eye_z_);
+        if (opening.to < highest_) narrow(sills, high, eye_z_);
+      }
+      go_on(beam, through.wall, opening.loss, wedge, sheet, std::move(sills), out);
+    }
+  }
+
+  static Sill at_height(Sill sill, double z, bool above) {
+    sill.z = z;
+    sill.above = above;
+    return sill;
+  }
+
+  void go_on(const Beam& beam, int wall, int loss, const Wedge& wedge, int sheet, std::vector<Sill> sills, std::vector<Beam>& out) {
     Beam next;
     next.crossings = beam.crossings;
-    ++next.crossings[static_cast<std::size_t>(through.opening)];
+    ++next.crossings[static_cast<std::size_t>(loss)];
     if (largest(weight_of(next.crossings)) < spec_.min_weight) {
       ended_by_weight_ = true;
       return;
@@ -214,18 +241,19 @@ class Unfolder {
       ended_by_weight_ = true;
       return;
     }
-    next.cover_from_room = beam.cover_from_room * mirrors_[static_cast<std::size_t>(through.wall)];
+    next.cover_from_room = beam.cover_from_room * mirrors_[static_cast<std::size_t>(wall)];
     if (automaton_) {
-      next.word = times(*automaton_, beam.word, letter_[static_cast<std::size_t>(through.wall)]);
+      next.word = times(*automaton_, beam.word, letter_[static_cast<std::size_t>(wall)]);
       // The image of an element depends on nothing else, so that all its copies fit together bit by bit.
       next.cover_from_room = element_of(next.word);
     } else {
       next.word = beam.word;
-      next.word.push_back(static_cast<std::uint8_t>(through.wall));
+      next.word.push_back(static_cast<std::uint8_t>(wall));
       if (next.word.size() % 8 == 0) next.cover_from_room = geometry::renormalised(next.cover_from_room);
     }
     next.wedge = wedge;
-    next.entry = through.wall;
+    next.sills = std::move(sills);
+    next.entry = wall;
     next.sheet = sheet;
     out.push_back(std::move(next));
   }
@@ -250,7 +278,7 @@ class Unfolder {
   }
 
   void see(const Beam& beam, int bounces, int sheet, std::uint64_t nearer_walls) {
-    seen_.push_back({beam.word, bounces, sheet, beam.crossings, beam.wedge, beam.cover_from_room, nearer_walls});
+    seen_.push_back({beam.word, bounces, sheet, beam.crossings, beam.wedge, beam.cover_from_room, nearer_walls, beam.sills});
   }
 
   [[nodiscard]] Copy copy_of(const Seen& seen) const {
@@ -294,6 +322,7 @@ class Unfolder {
       for (std::size_t i = from; i < to;) {
         Copy copy = copy_of(seen_[i]);
         copy.wedge = seen_[i].wedge;
+        copy.sills = seen_[i].sills;
         const std::size_t run = i;
         for (++i; i < to && continues(seen_[run], *copy.wedge, seen_[i]); ++i) copy.wedge->to = seen_[i].wedge.to;
         copies.push_back(std::move(copy));
@@ -305,6 +334,7 @@ class Unfolder {
   /// Whether `next` is seen beside the wedge, as the same thing.
   static bool continues(const Seen& first, const Wedge& wedge, const Seen& next) {
     constexpr double kHalfTurn = 1e-6;
+    if (!first.sills.empty() || !next.sills.empty()) return false;
     return first.crossings == next.crossings && first.nearer_walls == next.nearer_walls && same(wedge.to, next.wedge.from) &&
            turn(wedge.from, next.wedge.to) > kHalfTurn;
   }
@@ -312,6 +342,7 @@ class Unfolder {
   const place::PlacedRoom& room_;
   const scene::CoverSpec& spec_;
   const Rim& rim_;
+  double eye_z_, lowest_ = 0, highest_ = 0;   // all heights that rays can have
   Isometry eye_from_cover_;
   double pixels_;
   std::vector<Isometry> mirrors_;
@@ -324,9 +355,8 @@ class Unfolder {
 }  // namespace
 
 Result<std::vector<Copy>> unfold_by_beams(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const BeamOptions& options) {
-  const auto rim = make_rim(room);
-  if (!rim) return rim.error();
-  return Unfolder(room, eye, spec, *rim).run(options);
+  const Rim rim = make_rim(room, spec.max_bounces);
+  return Unfolder(room, eye, spec, rim).run(options);
 }
 
 bool needs_beams(const place::PlacedRoom& room) {

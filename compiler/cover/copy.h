@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/cover/sill.h"
 #include "compiler/cover/wedge.h"
 #include "compiler/geometry/isometry.h"
 #include "compiler/scene/color.h"
@@ -29,6 +30,7 @@ struct Copy {
   scene::Color weight{1, 1, 1};     ///< product of reflectance × tint on the way
   std::uint64_t nearer_walls = 0;   ///< bit i: wall i faces the eye (the copy across it is nearer); that wall is drawn there. Up to 64 walls; all further ones are drawn.
   std::optional<Wedge> wedge;       ///< what is seen of this copy in other directions is not this copy: it is cut there. Nothing: all of it is drawn
+  std::vector<Sill> sills;          ///< with a wedge only: of what it holds, this copy is what is seen above and below these
   Storey storey;
 };
 

@@ -21,7 +21,7 @@ struct UnfoldOptions {
 /// Makes:       copies by bounces, then sheet, then word; the room itself first. Memory grows with the output only.
 /// Exact:       words and their number (no float decides); `min_pixels` is measured: the smaller extent of the room's circumscribed
 ///              cylinder in the middle of the picture; of beams their width.
-/// Diagnostics: cover.stacked-mirrors; cover.too-much beyond `max_copies`, with a max_bounces that fits.
+/// Diagnostics: cover.too-much beyond `max_copies`, with a max_bounces that fits.
 [[nodiscard]] Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
                                                const UnfoldOptions& options = {});
 

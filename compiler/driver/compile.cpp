@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "compiler/bend/cut_at_sills.h"
 #include "compiler/cover/plan.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/geometry/chart.h"
@@ -33,7 +34,7 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
 /// Plain colours, or, in a scene with lamps, the light of the room.
 Result<light::Atlas> make_atlas(const Opened& opened, const Executor& executor, const Progress& progress) {
   if (!light::needs_bake(opened.scene, *opened.room)) return light::make_atlas(*opened.room);
-  const auto field = light::prepare_light(opened.scene, *opened.room, {}, executor);
+  const auto field = light::prepare_light(opened.scene, *opened.room, light::light_options(opened.scene), executor);
   if (!field) return field.error();
   auto baked = light::bake(*opened.room, *field, {}, executor, progress);
   if (!baked) return baked.error();
@@ -47,6 +48,11 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   if (const auto planned = plan(opened, options); !planned) return planned.error();
   const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover, {.progress = progress});
   if (!copies) return located(copies.error(), opened.scene.span);
+  if (options.bend.view == bend::View::disk && std::any_of(copies->begin(), copies->end(), [](const cover::Copy& c) { return !c.sills.empty(); })) {
+    return located({make_error("cover.stacked-mirrors", "the mirrors above each other that differ show their copies to one eye: --view disk has none",
+                               "give them the same reflectance and tint, or leave out --view disk")},
+                   opened.scene.span);
+  }
   report(progress, "atlas", 0, 0);
   auto atlas = make_atlas(opened, executor, progress);
   if (!atlas) return located(atlas.error(), opened.scene.span);
@@ -55,6 +61,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   bending.colours_vary = bending.colours_vary || baked;
   auto bent = bend::bend(atlas->room, atlas->uv, *copies, opened.eye, bending, executor, progress);
   if (!bent) return located(bent.error(), opened.scene.span);
+  bend::cut_at_sills(*bent, *copies, opened.eye, bending.tolerance_px);
 
   Compiled compiled;
   Product& product = compiled.product;

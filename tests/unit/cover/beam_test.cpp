@@ -118,15 +118,61 @@ TEST_CASE("plain parts of walls end beams", "[cover]") {
   CHECK(beams_of(two, {6, 0, 0, {}}).size() == 13);   // opposite: a row of 2·6 + 1
 }
 
-TEST_CASE("mirrors above each other must be alike", "[cover]") {
+TEST_CASE("mirrors above each other that differ divide what is seen at sills", "[cover]") {
   auto room = mirror_room("*2222");
+  room.mirrors.resize(1);
   room.mirrors[0].height[1] = 0.4;
-  room.mirrors.push_back({0, {0, 1}, {0.5, 1}, 0.5, {1, 1, 1}});
-  const auto copies = cover::unfold_by_beams(room, eye_in(room), {6, 0, 0, {}});
-  REQUIRE(!copies);
-  CHECK(copies.error().front().code == "cover.stacked-mirrors");
+  room.mirrors.push_back({0, {0, room.room.walls[0].length}, {0.5, 1}, 0.5, {1, 1, 1}});
+  const auto copies = beams_of(room, {6, 0, 0, {}});
+  REQUIRE(copies.size() == 3);
+  for (std::size_t i = 1; i < 3; ++i) {
+    REQUIRE(copies[i].wedge);
+    REQUIRE(copies[i].sills.size() == 1);
+    CHECK(copies[i].sills[0].z == Approx(0.45));   // in the middle of the wall between them
+    CHECK(copies[i].weight.r == Approx(copies[i].sills[0].above ? 0.5 : 0.9));
+  }
+  CHECK(copies[1].sills[0].above != copies[2].sills[0].above);
   room.mirrors.back().reflectance = 0.9;
-  CHECK(cover::unfold_by_beams(room, eye_in(room), {6, 0, 0, {}}));
+  const auto alike = beams_of(room, {6, 0, 0, {}});
+  REQUIRE(alike.size() == 2);
+  CHECK((!alike[1].wedge && alike[1].sills.empty()));
+}
+
+TEST_CASE("a bundle of rays keeps the sills that still bound it", "[cover]") {
+  using cover::Sill;
+  const auto sill = [](double distance, double z, bool above) { return Sill{{-distance, 1, 0}, 0, z, above}; };
+  const double eye = 0.5;
+  std::vector<Sill> sills;
+  cover::narrow(sills, sill(1, 0.8, false), eye);
+  cover::narrow(sills, sill(2, 0.8, false), eye);   // lower, being farther
+  REQUIRE(sills.size() == 1);
+  CHECK(sills[0].line.w == -2);
+  cover::narrow(sills, sill(3, 0.8, true), eye);
+  cover::narrow(sills, sill(4, 0.8, true), eye);    // passed anyway
+  REQUIRE(sills.size() == 2);
+  CHECK(sills[1].line.w == -3);
+  cover::narrow(sills, sill(4, 0.2, true), eye);    // below the eye
+  CHECK(sills.size() == 2);
+  const cover::Wedge ahead{{std::cos(0.1), -std::sin(0.1)}, {std::cos(0.1), std::sin(0.1)}};
+  const auto passes = [&](const std::vector<Sill>& all, double low, double high) {
+    return !cover::nothing_passes(Space::euclidean, all, sill(5, low, true), sill(5, high, false), ahead, eye);
+  };
+  CHECK(passes(sills, 0, 1.3));
+  CHECK(!passes(sills, 0, 0.9));
+  CHECK(!passes({sill(1, 0.8, true), sill(1, 0.7, false)}, 0, 1));
+}
+
+TEST_CASE("a sill is met where the ray meets its wall, in every space and half turn", "[cover]") {
+  const Space space = GENERATE(Space::spherical, Space::euclidean, Space::hyperbolic);
+  const geometry::Point a = geometry::point_along(space, {}, {0, 1, 0}, 0.5), b = geometry::point_along(space, {}, {0, 0, 1}, 0.7);
+  const cover::Sill sill{geometry::line_through(space, a, b), 0, 1, false};
+  CHECK(cover::distance_to(space, sill, {1, 0}) == Approx(0.5).epsilon(1e-12));
+  CHECK(cover::distance_to(space, sill, {0, 1}) == Approx(0.7).epsilon(1e-12));
+  CHECK(cover::slope_of(space, sill, {0, 1}, 0.5) == Approx(0.5 / 0.7));
+  if (space == Space::spherical) {
+    const cover::Sill round{geometry::reversed(sill.line), 1, 1, false};
+    CHECK(cover::distance_to(space, round, {1, 0}) == Approx(0.5 + M_PI).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("too many beams are refused with bounces that fit", "[cover]") {

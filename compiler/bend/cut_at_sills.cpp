@@ -1,0 +1,297 @@
+// After bending rays from the eye are straight, and a polyline's rays fill planes. (Before it, a sill is no plane but in E²: the rays through the points of a wall at
+// one height are neither a geodesic surface nor linear in the parts' own coordinates.)
+//
+// No new vertex depends on the way to it: it lies on an edge and one plane, or on a triangle and the ray in which two planes meet. So neighbouring triangles, and the
+// copies on both sides of a sill, make the same ones.
+#include "compiler/bend/cut_at_sills.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "compiler/cover/sill.h"
+
+namespace orbc::bend {
+namespace {
+
+using cover::Bearing;
+using geometry::Vector3;
+
+constexpr double kWidest = 0.5;     // cosine of the widest piece of a polyline
+constexpr int kDeepest = 12;        // halvings
+
+/// A plane through the eye.
+struct Plane {
+  Vector3 normal;                   // slopes: upwards; upright: to the left
+  int sill = 0;
+  int at = 0;                       // slopes: from the polyline's vertex `at` to the next; upright: through vertex `at`
+  bool upright = false;
+};
+
+/// The sills of one copy, as polylines.
+class Planes {
+ public:
+  Planes(const cover::Copy& copy, geometry::Space space, const place::Eye& eye, double tolerance_px)
+      : space_(space), eye_z_(eye.z), tolerance_(tolerance_px / place::pixels_per_radian(eye)) {
+    for (std::size_t i = 0; i < copy.sills.size(); ++i) {
+      rays_.emplace_back();
+      sill_ = &copy.sills[i];
+      add(copy.wedge->from);
+      refine(copy.wedge->from, copy.wedge->to, 0);
+      const auto& rays = rays_.back();
+      first_.push_back(static_cast<int>(planes.size()));
+      for (std::size_t k = 0; k + 1 < rays.size(); ++k) {
+        planes.push_back({normalised(cross(rays[k], rays[k + 1])), static_cast<int>(i), static_cast<int>(k), false});
+        planes.push_back({{-rays[k + 1].y, rays[k + 1].x, 0}, static_cast<int>(i), static_cast<int>(k) + 1, true});
+      }
+    }
+  }
+
+  [[nodiscard]] int sectors(std::size_t sill) const { return static_cast<int>(rays_[sill].size()) - 1; }
+  [[nodiscard]] int slope(std::size_t sill, int sector) const { return first_[sill] + 2 * sector; }
+  /// Between a sector and the next.
+  [[nodiscard]] int border(std::size_t sill, int sector) const { return first_[sill] + 2 * sector + 1; }
+
+  /// The direction in which two planes meet.
+  [[nodiscard]] Vector3 ray(int a, int b) const {
+    const Plane *p = &planes[static_cast<std::size_t>(a)], *q = &planes[static_cast<std::size_t>(b)];
+    if (p->sill == q->sill && p->upright != q->upright) return rays_[static_cast<std::size_t>(p->sill)][static_cast<std::size_t>(p->upright ? p->at : q->at)];
+    const auto key = [](const Plane& plane) { return std::tie(plane.normal.x, plane.normal.y, plane.normal.z); };
+    if (key(*q) < key(*p)) std::swap(p, q);
+    return cross(p->normal, q->normal);
+  }
+
+  std::vector<Plane> planes;
+
+ private:
+  void add(const Bearing& b) { rays_.back().push_back({b.x, b.y, cover::slope_of(space_, *sill_, b, eye_z_)}); }
+
+  void refine(const Bearing& from, const Bearing& to, int depth) {
+    const Bearing middle = cover::spread({from, to}, 3)[1];
+    if (depth < kDeepest && !straight(from, to)) {
+      refine(from, middle, depth + 1);
+      refine(middle, to, depth + 1);
+      return;
+    }
+    add(to);
+  }
+
+  /// Whether the plane through the rays at both ends is the sill's surface between them, within the tolerance.
+  [[nodiscard]] bool straight(const Bearing& from, const Bearing& to) const {
+    if (from.x * to.x + from.y * to.y < kWidest) return false;
+    if (space_ == geometry::Space::euclidean) return true;
+    const double s0 = cover::slope_of(space_, *sill_, from, eye_z_), s1 = cover::slope_of(space_, *sill_, to, eye_z_), all = turn(from, to);
+    for (const Bearing& b : cover::spread({from, to}, 5)) {
+      const double s = cover::slope_of(space_, *sill_, b, eye_z_), flat = (s0 * turn(b, to) + s1 * turn(from, b)) / all;
+      if (std::fabs(s - flat) > tolerance_ * (1 + s * s)) return false;
+    }
+    return true;
+  }
+
+  geometry::Space space_;
+  double eye_z_, tolerance_;
+  const cover::Sill* sill_ = nullptr;
+  std::vector<std::vector<Vector3>> rays_;   // by sill
+  std::vector<int> first_;                   // its first plane
+};
+
+struct Vertex {
+  Vector3 p;                        // from the eye
+  std::array<double, 2> uv{};
+  int corner = -1;                  // of the triangle
+  int edge = -1;                    // joins the corners `edge` and edge + 1
+  int on[2] = {-1, -1};             // planes
+};
+using Polygon = std::vector<Vertex>;
+
+/// Cuts the triangles of one copy and writes what is left.
+class Cutter {
+ public:
+  Cutter(const BentCover& from, const cover::Copy& copy, const Planes& planes, double eye_z, BentCover& to)
+      : from_(from), copy_(copy), planes_(planes), eye_{0, 0, eye_z}, to_(to) {}
+
+  void run(const BentRange& range) {
+    const std::size_t first_vertex = to_.positions.size(), first_index = to_.indices.size();
+    first_vertex_ = range.first_vertex;
+    given_.assign(range.vertex_count, -1);
+    for (std::size_t i = 0; i < range.index_count; i += 3) cut(&from_.indices[range.first_index + i]);
+    to_.copies.push_back({first_vertex, to_.positions.size() - first_vertex, first_index, to_.indices.size() - first_index});
+  }
+
+ private:
+  void cut(const std::uint32_t* triangle) {
+    triangle_ = triangle;
+    Polygon whole;
+    for (int k = 0; k < 3; ++k) {
+      const auto& p = from_.positions[triangle[k]];
+      const auto& uv = from_.uv[triangle[k]];
+      corners_[k] = {Vector3{p[0], p[1], p[2]} - eye_, {uv[0], uv[1]}, k, -1, {-1, -1}};
+      whole.push_back(corners_[k]);
+    }
+    std::vector<Polygon> pieces{std::move(whole)}, next;
+    for (std::size_t sill = 0; sill < copy_.sills.size(); ++sill) {
+      next.clear();
+      for (const Polygon& piece : pieces) cut(piece, sill, next);
+      std::swap(pieces, next);
+    }
+    own_.clear();
+    for (const Polygon& piece : pieces) write(piece);
+  }
+
+  void cut(Polygon rest, std::size_t sill, std::vector<Polygon>& out) const {
+    const double side = copy_.sills[sill].above ? 1 : -1;
+    for (int sector = 0; sector < planes_.sectors(sill) && rest.size() > 2; ++sector) {
+      const bool last = sector + 1 == planes_.sectors(sill);
+      Polygon here = last ? rest : clipped(rest, planes_.border(sill, sector), -1);
+      if (!last) rest = clipped(rest, planes_.border(sill, sector), 1);
+      if (here.size() > 2) here = clipped(here, planes_.slope(sill, sector), side);
+      if (here.size() > 2) out.push_back(std::move(here));
+    }
+  }
+
+  [[nodiscard]] double value(const Vertex& v, int plane) const {
+    return v.on[0] == plane || v.on[1] == plane ? 0 : dot(planes_.planes[static_cast<std::size_t>(plane)].normal, v.p);
+  }
+
+  /// Sutherland–Hodgman; what only touches the plane is nothing.
+  [[nodiscard]] Polygon clipped(const Polygon& polygon, int plane, double side) const {
+    Polygon inside;
+    bool any = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vertex &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const double va = side * value(a, plane), vb = side * value(b, plane);
+      any = any || va > 0;
+      if (va >= 0) inside.push_back(a);
+      if ((va < 0 && vb > 0) || (va > 0 && vb < 0)) inside.push_back(between(a, b, plane));
+    }
+    if (!any) inside.clear();
+    return inside;
+  }
+
+  static bool lies_on_edge(const Vertex& v, int edge) { return v.edge == edge || (v.corner >= 0 && (v.corner == edge || v.corner == (edge + 1) % 3)); }
+
+  [[nodiscard]] Vertex between(const Vertex& a, const Vertex& b, int plane) const {
+    for (int edge = 0; edge < 3; ++edge)
+      if (lies_on_edge(a, edge) && lies_on_edge(b, edge)) return on_edge(edge, plane);
+    for (const int other : a.on)
+      if (other >= 0 && (other == b.on[0] || other == b.on[1])) return on_ray(a, b, plane, other);
+    return mixed(a, b, value(a, plane) / (value(a, plane) - value(b, plane)));
+  }
+
+  static Vertex mixed(const Vertex& a, const Vertex& b, double t) {
+    Vertex v;
+    v.p = a.p + t * (b.p - a.p);
+    for (int k = 0; k < 2; ++k) v.uv[k] = a.uv[k] + t * (b.uv[k] - a.uv[k]);
+    return v;
+  }
+
+  /// From the edge's ends, in an order that both its triangles know.
+  [[nodiscard]] Vertex on_edge(int edge, int plane) const {
+    const Vertex *a = &corners_[edge], *b = &corners_[(edge + 1) % 3];
+    if (std::tie(b->p.x, b->p.y, b->p.z) < std::tie(a->p.x, a->p.y, a->p.z)) std::swap(a, b);
+    const double va = value(*a, plane), vb = value(*b, plane);
+    Vertex v = mixed(*a, *b, va / (va - vb));
+    v.edge = edge;
+    v.on[0] = plane;
+    return v;
+  }
+
+  [[nodiscard]] Vertex on_ray(const Vertex& a, const Vertex& b, int plane, int other) const {
+    const Vector3 &p = corners_[0].p, &q = corners_[1].p, &r = corners_[2].p;
+    const Vector3 normal = cross(q - p, r - p), ray = planes_.ray(plane, other);
+    const double t = dot(normal, p) / dot(normal, ray), scale = std::max(length(a.p), length(b.p));
+    Vertex v = mixed(a, b, value(a, plane) / (value(a, plane) - value(b, plane)));
+    // A triangle seen from its edge meets no ray in one point.
+    if (std::isfinite(t) && length(t * ray - v.p) < 1e-4 * scale) v.p = t * ray;
+    v.on[0] = std::min(plane, other);
+    v.on[1] = std::max(plane, other);
+    return v;
+  }
+
+  void write(const Polygon& polygon) {
+    std::vector<std::uint32_t> ids;
+    for (const Vertex& v : polygon) ids.push_back(index_of(v));
+    for (std::size_t k = 1; k + 1 < ids.size(); ++k) {
+      if (ids[0] == ids[k] || ids[k] == ids[k + 1] || ids[k + 1] == ids[0]) continue;
+      to_.indices.insert(to_.indices.end(), {ids[0], ids[k], ids[k + 1]});
+    }
+  }
+
+  std::uint32_t index_of(const Vertex& v) {
+    if (v.corner >= 0) {
+      std::int64_t& index = given_[triangle_[v.corner] - first_vertex_];
+      if (index < 0) {
+        index = static_cast<std::int64_t>(to_.positions.size());
+        to_.positions.push_back(from_.positions[triangle_[v.corner]]);
+        to_.uv.push_back(from_.uv[triangle_[v.corner]]);
+      }
+      return static_cast<std::uint32_t>(index);
+    }
+    const std::array<int, 2> planes{v.on[0], v.on[1]};
+    if (v.edge >= 0) {
+      const auto [a, b] = std::minmax(triangle_[v.edge], triangle_[(v.edge + 1) % 3]);
+      const auto [known, is_new] = on_edges_.try_emplace({a, b, planes[0]}, 0);
+      if (is_new) known->second = add(v);
+      return known->second;
+    }
+    if (planes[0] < 0) return add(v);
+    const auto [known, is_new] = own_.try_emplace(planes, 0);
+    if (is_new) known->second = add(v);
+    return known->second;
+  }
+
+  std::uint32_t add(const Vertex& v) {
+    const Vector3 p = v.p + eye_;
+    to_.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    to_.uv.push_back({static_cast<float>(v.uv[0]), static_cast<float>(v.uv[1])});
+    return static_cast<std::uint32_t>(to_.positions.size() - 1);
+  }
+
+  const BentCover& from_;
+  const cover::Copy& copy_;
+  const Planes& planes_;
+  Vector3 eye_;
+  BentCover& to_;
+  std::size_t first_vertex_ = 0;
+  const std::uint32_t* triangle_ = nullptr;
+  Vertex corners_[3];
+  std::vector<std::int64_t> given_;                                             // new index of the copy's vertices
+  std::map<std::tuple<std::uint32_t, std::uint32_t, int>, std::uint32_t> on_edges_;
+  std::map<std::array<int, 2>, std::uint32_t> own_;                             // of the triangle
+};
+
+void append_whole(const BentCover& from, const BentRange& range, BentCover& to) {
+  const std::size_t first_vertex = to.positions.size(), first_index = to.indices.size();
+  const auto piece = [](const auto& all, std::size_t first, std::size_t count) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::pair(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  const auto [p, p_end] = piece(from.positions, range.first_vertex, range.vertex_count);
+  to.positions.insert(to.positions.end(), p, p_end);
+  const auto [uv, uv_end] = piece(from.uv, range.first_vertex, range.vertex_count);
+  to.uv.insert(to.uv.end(), uv, uv_end);
+  for (std::size_t i = 0; i < range.index_count; ++i)
+    to.indices.push_back(static_cast<std::uint32_t>(from.indices[range.first_index + i] - range.first_vertex + first_vertex));
+  to.copies.push_back({first_vertex, range.vertex_count, first_index, range.index_count});
+}
+
+}  // namespace
+
+void cut_at_sills(BentCover& cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px) {
+  if (std::all_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.sills.empty(); })) return;
+  BentCover cut;
+  cut.error_bound_px = cover.error_bound_px;
+  cut.split_parts = cover.split_parts;
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    if (copies[i].sills.empty()) {
+      append_whole(cover, cover.copies[i], cut);
+    } else {
+      const Planes planes(copies[i], eye.room_from_eye.space, eye, tolerance_px);
+      Cutter(cover, copies[i], planes, eye.z, cut).run(cover.copies[i]);
+    }
+  }
+  cover = std::move(cut);
+}
+
+}  // namespace orbc::bend
