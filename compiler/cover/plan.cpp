@@ -135,14 +135,36 @@ Diagnostic too_much(const Counts& counts, int max_bounces, const Integer& most, 
 
 }  // namespace
 
-Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options) {
+namespace {
+
+Plan empty_plan(const place::PlacedRoom& room) {
   Plan plan;
   for (const auto& part : room.parts) {
     plan.room_triangles += part.triangles.size();
     plan.room_vertices += part.floor.size();
   }
-  const std::uint64_t bytes_per_copy = 20 * plan.room_vertices + 12 * plan.room_triangles + 200;
-  const Integer most = options.max_bytes / bytes_per_copy;
+  return plan;
+}
+
+std::uint64_t bytes_per_copy(const Plan& plan) {
+  return static_cast<std::uint64_t>(kBytesPerVertex * static_cast<double>(plan.room_vertices) + kBytesPerTriangle * static_cast<double>(plan.room_triangles) + kBytesPerCopy);
+}
+
+void take(Counts counts, Plan& plan) {
+  plan.copies = counts.total;
+  plan.copies_per_bounces = std::move(counts.by_bounces);
+  const auto copies = static_cast<std::uint64_t>(plan.copies);
+  plan.triangles = copies * plan.room_triangles;
+  plan.vertices = copies * plan.room_vertices;
+  plan.bytes = copies * bytes_per_copy(plan);
+}
+
+}  // namespace
+
+Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options) {
+  Plan plan = empty_plan(room);
+  const std::uint64_t each = options.whole ? bytes_per_copy(plan) : static_cast<std::uint64_t>(kBytesPerCopy);
+  const Integer most = options.max_bytes / each;
   Counts counts;
   if (needs_beams(room)) {
     const auto copies = unfold(room, eye, spec);
@@ -156,16 +178,16 @@ Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const sc
     counts = count_copies(*reach, room, eye, most);
     if (has_storeys(room)) counts = on_storeys(counts, *reach, room, spec);
   }
-  if (!counts.complete || counts.total > most) {
-    return too_much(counts, spec.max_bounces, most,
-                    fmt::format("{} MiB hold ({} KiB each)", options.max_bytes >> 20, (bytes_per_copy + 1023) >> 10));
-  }
-  plan.copies = counts.total;
-  plan.copies_per_bounces = std::move(counts.by_bounces);
-  const auto copies = static_cast<std::uint64_t>(plan.copies);
-  plan.triangles = copies * plan.room_triangles;
-  plan.vertices = copies * plan.room_vertices;
-  plan.bytes = copies * bytes_per_copy;
+  if (!counts.complete || counts.total > most)
+    return too_much(counts, spec.max_bounces, most, fmt::format("{} MiB hold ({} bytes each)", options.max_bytes >> 20, each));
+  take(std::move(counts), plan);
+  return plan;
+}
+
+Plan plan_of(const std::vector<Copy>& copies, const place::PlacedRoom& room) {
+  Plan plan = empty_plan(room);
+  for (const Copy& copy : copies) plan.sheets = std::max(plan.sheets, copy.sheet + 1);
+  take(count_seen(copies), plan);
   return plan;
 }
 

@@ -4,6 +4,7 @@
 
 #include "compiler/base/rational.h"
 #include "compiler/base/result.h"
+#include "compiler/cover/copy.h"
 #include "compiler/place/eye.h"
 #include "compiler/place/placed.h"
 
@@ -11,22 +12,31 @@ namespace orbc::cover {
 
 struct PlanOptions {
   std::uint64_t max_bytes = std::uint64_t{4} << 30;
+  bool whole = true;      ///< every copy counts with all triangles of the room; else only itself, as the least that it can take
 };
 
-/// What unfolding a scene will make, before it is made; what bending adds by splitting is not in it: bend.too-dense guards that.
+/// What a product takes, without the pictures.
+constexpr double kBytesPerVertex = 20, kBytesPerTriangle = 12, kBytesPerCopy = 200;
+
+/// What compiling a scene will make. Of the cover alone (here) every copy counts with all triangles of the room, unsplit; what bending really makes of the
+/// copies is foreseen by driver/estimate.h.
 struct Plan {
   Integer copies;                           ///< exact
   std::vector<Integer> copies_per_bounces;  ///< 0 … the last bounce that has copies
   int sheets = 1;
   std::uint64_t room_triangles = 0, room_vertices = 0;    ///< of one copy
-  std::uint64_t triangles = 0, vertices = 0, bytes = 0;   ///< of all copies unsplit, walls that neighbours share counted twice
+  std::uint64_t triangles = 0, vertices = 0, bytes = 0;   ///< of all copies
 };
 
-/// Plans a scene: how many copies, triangles, bytes.
+/// Plans a scene before it is unfolded: how many copies.
 /// Makes:       the number of copies from the growth series, or counted one by one where sizes or plain walls cut the group; copies that need beams are unfolded once.
-/// Exact:       copies. Bytes: 20 a vertex, 12 a triangle, 200 a copy, before any split.
-/// Diagnostics: those of `unfold`; cover.too-much when the product would exceed `max_bytes`: the hint names the largest max_bounces that fits.
+/// Exact:       copies.
+/// Diagnostics: those of `unfold`; cover.too-much when the product would exceed `max_bytes`: the hint names
+///              the largest max_bounces that fits.
 [[nodiscard]] Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options = {});
+
+/// The same of copies that are unfolded already.
+[[nodiscard]] Plan plan_of(const std::vector<Copy>& copies, const place::PlacedRoom& room);
 
 /// The error of a cover with more than `most` copies.
 [[nodiscard]] Diagnostic too_many_copies(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, std::uint64_t most);
