@@ -44,6 +44,11 @@ Result<light::Atlas> make_atlas(const Opened& opened, const Executor& executor, 
 }  // namespace
 
 Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+  if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(), [](const place::PlacedMirror& m) { return !(m.glow == scene::Color{}); })) {
+    return located({make_error("driver.glowing-mirror", "a mirror that glows adds light to all that is seen in it: exports can only multiply",
+                               "leave out `glow`, or draw the scene with the tracer (`orbc trace`)")},
+                   opened.scene.span);
+  }
   report(progress, "unfolding", 0, 0);
   if (const auto planned = plan(opened, options); !planned) return planned.error();
   const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover, {.progress = progress});
