@@ -13,6 +13,7 @@ PlacedMirror from(const scene::Mirror& mirror, int wall) {
   placed.wall = wall;
   placed.reflectance = mirror.reflectance;
   placed.tint = mirror.tint;
+  placed.glow = mirror.glow;
   return placed;
 }
 

@@ -41,6 +41,7 @@ struct PlacedMirror {
   double height[2] = {0, 0};
   double reflectance = 0.9;
   scene::Color tint{1, 1, 1};
+  scene::Color glow{0, 0, 0};             ///< radiance of its own
 };
 
 /// The furnished room: everything there is to see, in room coordinates, before any copy is made.

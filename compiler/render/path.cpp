@@ -34,6 +34,7 @@ struct Walk {
     follow.min_weight = options.min_weight;
     for (int depth = 0; depth <= options.max_depth; ++depth) {
       const trace::Path path = trace::follow(field.scene, ray, follow);
+      sum = sum + weight * path.glow;
       if (path.cut_off || path.hit.target == trace::Target::nothing) {
         sum = sum + weight * options.background;
         return false;

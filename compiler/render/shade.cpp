@@ -72,6 +72,7 @@ struct Walker {
   }
 
   void light(const trace::Path& path, double share, int depth) {
+    add(share * path.glow);
     if (path.cut_off || path.hit.target == trace::Target::nothing) return add(share * options.background);
     const trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
     if (depth == 0) seen.surface = point, seen.hit = true;

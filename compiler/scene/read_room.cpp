@@ -117,10 +117,11 @@ MirrorDraft read_mirror(Reader& reader, const Node& node, bool on_wall) {
   MirrorDraft draft;
   Mirror& mirror = draft.mirror;
   mirror.source = node.span;
-  const std::vector<std::string> keys = {"reflectance", "tint", "span", "height", "frame"};
-  const Fields fields(reader, node, on_wall ? "a mirror" : "a mirror on floor or ceiling", {keys.begin(), keys.begin() + (on_wall ? 5 : 2)});
+  const std::vector<std::string> keys = {"reflectance", "tint", "glow", "span", "height", "frame"};
+  const Fields fields(reader, node, on_wall ? "a mirror" : "a mirror on floor or ceiling", {keys.begin(), keys.begin() + (on_wall ? 6 : 3)});
   mirror.reflectance = fields.number("reflectance", mirror.reflectance, kUnit);
   mirror.tint = fields.color("tint", mirror.tint);
+  mirror.glow = fields.color("glow", mirror.glow);
   if (!on_wall) return draft;
   mirror.span = read_interval(fields, "span", "a list of two lengths along the wall, from its first corner: [0.1, 0.5]");
   mirror.height = read_interval(fields, "height", "a list of two heights above the floor: [0.2, 0.9]");

@@ -75,6 +75,7 @@ struct Mirror {
   std::optional<std::array<double, 2>> height;
   double reflectance = 0.9;         ///< = 1 − attenuation, 0…1
   Color tint{1, 1, 1};
+  Color glow{0, 0, 0};              ///< radiance of its own, added to what it reflects (the tracer alone draws it)
   std::optional<Frame> frame;
   SourceSpan source;
 };

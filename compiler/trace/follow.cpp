@@ -41,6 +41,7 @@ bool goes_on(const TraceScene& scene, const FollowOptions& options, const Hit& h
     path.cut_off = true;
     return false;
   }
+  path.glow = path.glow + path.weight * mirror->glow;
   path.weight = weight;
   ++path.bounces;
   if (options.record_word) path.word.push_back(static_cast<std::int16_t>(surface));

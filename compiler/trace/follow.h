@@ -25,6 +25,7 @@ struct Path {
   double length = 0;                ///< of the whole path, `FollowOptions::length` included
   int bounces = 0;
   scene::Color weight{1, 1, 1};     ///< product of reflectance × tint
+  scene::Color glow{0, 0, 0};       ///< what the mirrors on the way add by themselves: the sum of weight (before each) × glow
   std::vector<std::int16_t> word;   ///< the mirrors in order: walls from 0, kFloor, kCeiling
 };
 

@@ -18,6 +18,7 @@ MirrorArea area_of(const place::PlacedMirror& mirror, int index, double length, 
   MirrorArea area;
   area.mirror = index;
   area.weight = mirror.reflectance * mirror.tint;
+  area.glow = mirror.glow;
   if (mirror.wall < 0) return area;
   if (mirror.span[0] > kEnd) area.span[0] = mirror.span[0];
   if (mirror.span[1] < length - kEnd) area.span[1] = mirror.span[1];

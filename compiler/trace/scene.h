@@ -18,6 +18,7 @@ class Bvh;
 struct MirrorArea {
   double span[2] = {-kEndless, kEndless}, height[2] = {-kEndless, kEndless};
   scene::Color weight;              ///< reflectance × tint
+  scene::Color glow;                ///< radiance of its own
   int mirror = -1;                  ///< index into PlacedRoom::mirrors
 };
 
