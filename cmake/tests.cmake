@@ -36,6 +36,11 @@ endforeach()
 foreach(exporter ${ORBC_EXPORTERS})
   orbc_tests(test_${exporter} tests/unit/${exporter} USES ${exporter})
 endforeach()
+orbc_tests(test_watertight tests/watertight USES driver)
+if(TARGET test_watertight)  # the same from a thousand eyes
+  add_test(NAME watertight_thousand COMMAND test_watertight [slow] WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  set_tests_properties(watertight_thousand PROPERTIES LABELS slow TIMEOUT 1200)
+endif()
 # GCC 12 sees an impossible size in the comparison of two byte vectors (false positive at -O3).
 if(TARGET test_cover)
   target_compile_options(test_cover PRIVATE -Wno-error=stringop-overread)
