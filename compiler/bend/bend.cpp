@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "compiler/bend/clip.h"
+#include "compiler/bend/cut_as_seen.h"
 #include "compiler/bend/log_map.h"
 #include "compiler/bend/sight.h"
 #include "compiler/bend/tessellate.h"
@@ -36,6 +37,7 @@ struct Work {
   Isometry eye_from_cover, eye_from_room;
   Sight sight;
   BendOptions options;
+  double margin = 0;                                              // radians beyond the border of a wedge that count
 };
 
 /// What one copy takes, and how wrong it is. Splits that fit into a small store are kept for the second pass.
@@ -93,10 +95,11 @@ class CopyParts {
     for (const ModelPart& part : model_of(work, index)) {
       const PartNet& net = storey == work.storeys.end() ? work.nets[part.net] : storey->second[part.net]->net;
       if (!is_drawn(work, net, copy)) continue;
-      const InWedge place = copy.wedge ? place_in(*copy.wedge, seen, net) : InWedge::all;
+      const InWedge place = copy.wedge ? place_in(*copy.wedge, seen, net, work.margin) : InWedge::all;
       if (place == InWedge::all) parts_.push_back({&net, part.uv});
       if (place != InWedge::some) continue;
-      own_.push_back(clipped(*copy.wedge, seen, net, *part.uv));
+      // For the eye what is split alike on both sides of a wall is cut at last (cut_as_seen.h).
+      own_.push_back(work.options.view == View::eye ? reaching(*copy.wedge, seen, net, *part.uv, work.margin) : clipped(*copy.wedge, seen, net, *part.uv));
       if (!own_.back()->mesh.triangles.empty()) parts_.push_back({&own_.back()->net, &own_.back()->uv});
     }
   }
@@ -335,6 +338,8 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Model>& 
   const Isometry eye_from_room = inverse(eye.room_from_eye);
   const Isometry eye_from_cover = options.view == View::eye ? eye_from_room : geometry::identity(room.room.space);
   Work work{copies, model_of_copy, {}, {}, {}, eye_from_cover, eye_from_room, sight_of(eye, options), options};
+  // Chords outside of the picture may be off by some tolerances.
+  work.margin = options.view == View::eye ? 0.01 + 16 * options.tolerance_px / work.sight.pixels : 0;
   prepare(work, room, models, executor);
 
   Totals totals = count_all(work, executor, progress);
@@ -361,6 +366,7 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Model>& 
     Writer(work, i, out.copies[i], totals.copies[i].kept, out);
     std::vector<Tessellation>().swap(totals.copies[i].kept);
   });
+  if (options.view == View::eye) cut_as_seen(out, copies, eye, options.tolerance_px);
   return out;
 }
 

@@ -156,14 +156,49 @@ class Clipper {
 
 }  // namespace
 
-InWedge place_in(const Wedge& wedge, const LogMap& map, const PartNet& net) {
+InWedge place_in(const Wedge& wedge, const LogMap& map, const PartNet& net, double margin) {
   Ambient seen = map.eye_from_copy * net.centre;
   if (map.sheet % 2 == 1) seen = -1.0 * seen;
   const double first = geometry::asin_k(map.space, cover::turn(wedge.from, seen)), second = geometry::asin_k(map.space, -cover::turn(wedge.to, seen));
-  const double radius = net.radius * (1 + 1e-9) + 1e-9;
+  const double across = geometry::asin_k(map.space, margin * std::hypot(seen.x, seen.y));
+  const double radius = net.radius * (1 + margin + 1e-9) + across + 1e-9;
   if (radius > std::numbers::pi / 2 && map.space == Space::spherical) return InWedge::some;
   if (first < -radius || second < -radius) return InWedge::none;
   return first > radius && second > radius ? InWedge::all : InWedge::some;
+}
+
+std::unique_ptr<OwnPart> reaching(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv, double margin) {
+  const place::PlacedMesh& mesh = *net.mesh;
+  // Bit b: beyond border b. The sine of the angle to a border is least at a corner of a triangle.
+  std::vector<std::uint8_t> beyond(mesh.floor.size());
+  for (std::size_t i = 0; i < beyond.size(); ++i) {
+    Ambient seen = map.eye_from_copy * mesh.floor[i];
+    if (map.sheet % 2 == 1) seen = -1.0 * seen;
+    const double near = margin * std::hypot(seen.x, seen.y);
+    beyond[i] = static_cast<std::uint8_t>((cover::turn(wedge.from, seen) < -near ? 1 : 0) | (-cover::turn(wedge.to, seen) < -near ? 2 : 0));
+  }
+  auto own = std::make_unique<OwnPart>();
+  own->mesh.kind = mesh.kind;
+  own->mesh.name = mesh.name;
+  own->mesh.wall = mesh.wall;
+  std::vector<std::int32_t> index(mesh.floor.size(), -1);
+  for (const mesh::Triangle& t : mesh.triangles) {
+    if (beyond[t[0]] & beyond[t[1]] & beyond[t[2]]) continue;
+    own->mesh.triangles.push_back(t);
+    for (const std::uint32_t corner : t) index[corner] = 0;
+  }
+  // In the order of the part, so that edges run the same way.
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    if (index[i] < 0) continue;
+    index[i] = static_cast<std::int32_t>(own->mesh.floor.size());
+    own->mesh.floor.push_back(mesh.floor[i]);
+    own->mesh.z.push_back(mesh.z[i]);
+    own->uv.push_back(uv[i]);
+  }
+  for (mesh::Triangle& t : own->mesh.triangles)
+    for (auto& corner : t) corner = static_cast<std::uint32_t>(index[corner]);
+  own->net = part_net(map.space, own->mesh, net.along);
+  return own;
 }
 
 std::unique_ptr<OwnPart> clipped(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "compiler/bend/cut_at_sills.h"
 #include "compiler/cover/plan.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/geometry/chart.h"
@@ -66,7 +65,6 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   bending.colours_vary = bending.colours_vary || baked;
   auto bent = bend::bend(atlas->room, atlas->uv, *copies, opened.eye, bending, executor, progress);
   if (!bent) return located(bent.error(), opened.scene.span);
-  bend::cut_at_sills(*bent, *copies, opened.eye, bending.tolerance_px);
 
   Compiled compiled;
   Product& product = compiled.product;

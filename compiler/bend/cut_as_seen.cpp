@@ -1,9 +1,11 @@
+// Cutting comes after splitting: an edge of a wall that two copies share must be split alike, even if one of them is cut there and the other is not.
+//
 // After bending rays from the eye are straight, and a polyline's rays fill planes. (Before it, a sill is no plane but in E²: the rays through the points of a wall at
 // one height are neither a geodesic surface nor linear in the parts' own coordinates.)
 //
 // No new vertex depends on the way to it: it lies on an edge and one plane, or on a triangle and the ray in which two planes meet. So neighbouring triangles, and the
 // copies on both sides of a sill, make the same ones.
-#include "compiler/bend/cut_at_sills.h"
+#include "compiler/bend/cut_as_seen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,22 +20,24 @@ namespace {
 using cover::Bearing;
 using geometry::Vector3;
 
+constexpr double kOn = 4e-7;        // radians: positions are floats
 constexpr double kWidest = 0.5;     // cosine of the widest piece of a polyline
 constexpr int kDeepest = 12;        // halvings
 
 /// A plane through the eye.
 struct Plane {
   Vector3 normal;                   // slopes: upwards; upright: to the left
-  int sill = 0;
+  int sill = -1;                    // −1: border of the wedge
   int at = 0;                       // slopes: from the polyline's vertex `at` to the next; upright: through vertex `at`
   bool upright = false;
 };
 
-/// The sills of one copy, as polylines.
+/// The borders of one copy's wedge, and its sills as polylines.
 class Planes {
  public:
   Planes(const cover::Copy& copy, geometry::Space space, const place::Eye& eye, double tolerance_px)
       : space_(space), eye_z_(eye.z), tolerance_(tolerance_px / place::pixels_per_radian(eye)) {
+    for (const Bearing& b : {copy.wedge->from, copy.wedge->to}) planes.push_back({{-b.y, b.x, 0}, -1, 0, true});
     for (std::size_t i = 0; i < copy.sills.size(); ++i) {
       rays_.emplace_back();
       sill_ = &copy.sills[i];
@@ -48,6 +52,7 @@ class Planes {
     }
   }
 
+  static constexpr int kFrom = 0, kTo = 1;   // the wedge's
   [[nodiscard]] int sectors(std::size_t sill) const { return static_cast<int>(rays_[sill].size()) - 1; }
   [[nodiscard]] int slope(std::size_t sill, int sector) const { return first_[sill] + 2 * sector; }
   /// Between a sector and the next.
@@ -56,7 +61,7 @@ class Planes {
   /// The direction in which two planes meet.
   [[nodiscard]] Vector3 ray(int a, int b) const {
     const Plane *p = &planes[static_cast<std::size_t>(a)], *q = &planes[static_cast<std::size_t>(b)];
-    if (p->sill == q->sill && p->upright != q->upright) return rays_[static_cast<std::size_t>(p->sill)][static_cast<std::size_t>(p->upright ? p->at : q->at)];
+    if (p->sill >= 0 && p->sill == q->sill && p->upright != q->upright) return rays_[static_cast<std::size_t>(p->sill)][static_cast<std::size_t>(p->upright ? p->at : q->at)];
     const auto key = [](const Plane& plane) { return std::tie(plane.normal.x, plane.normal.y, plane.normal.z); };
     if (key(*q) < key(*p)) std::swap(p, q);
     return cross(p->normal, q->normal);
@@ -129,6 +134,12 @@ class Cutter {
       corners_[k] = {Vector3{p[0], p[1], p[2]} - eye_, {uv[0], uv[1]}, k, -1, {-1, -1}};
       whole.push_back(corners_[k]);
     }
+    for (const auto& [border, side] : {std::pair(Planes::kFrom, 1.0), std::pair(Planes::kTo, -1.0)}) {
+      if (outside(whole, border, side)) return;
+      if (outside(whole, border, -side)) continue;
+      whole = clipped(whole, border, side);
+      if (whole.size() < 3) return;
+    }
     std::vector<Polygon> pieces{std::move(whole)}, next;
     for (std::size_t sill = 0; sill < copy_.sills.size(); ++sill) {
       next.clear();
@@ -151,7 +162,15 @@ class Cutter {
   }
 
   [[nodiscard]] double value(const Vertex& v, int plane) const {
-    return v.on[0] == plane || v.on[1] == plane ? 0 : dot(planes_.planes[static_cast<std::size_t>(plane)].normal, v.p);
+    if (v.on[0] == plane || v.on[1] == plane) return 0;
+    const Plane& p = planes_.planes[static_cast<std::size_t>(plane)];
+    const double value = dot(p.normal, v.p);
+    return p.upright && std::fabs(value) <= kOn * (std::fabs(v.p.x) + std::fabs(v.p.y)) ? 0 : value;
+  }
+
+  /// Whether no corner lies on the side of the plane.
+  [[nodiscard]] bool outside(const Polygon& polygon, int plane, double side) const {
+    return std::none_of(polygon.begin(), polygon.end(), [&](const Vertex& v) { return side * value(v, plane) > 0; });
   }
 
   /// Sutherland–Hodgman; what only touches the plane is nothing.
@@ -278,17 +297,17 @@ void append_whole(const BentCover& from, const BentRange& range, BentCover& to) 
 
 }  // namespace
 
-void cut_at_sills(BentCover& cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px) {
-  if (std::all_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.sills.empty(); })) return;
+void cut_as_seen(BentCover& cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px) {
+  if (std::none_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.wedge.has_value(); })) return;
   BentCover cut;
   cut.error_bound_px = cover.error_bound_px;
   cut.split_parts = cover.split_parts;
   for (std::size_t i = 0; i < copies.size(); ++i) {
-    if (copies[i].sills.empty()) {
-      append_whole(cover, cover.copies[i], cut);
-    } else {
+    if (copies[i].wedge) {
       const Planes planes(copies[i], eye.room_from_eye.space, eye, tolerance_px);
       Cutter(cover, copies[i], planes, eye.z, cut).run(cover.copies[i]);
+    } else {
+      append_whole(cover, cover.copies[i], cut);
     }
   }
   cover = std::move(cut);
