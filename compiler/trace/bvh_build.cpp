@@ -316,7 +316,11 @@ void build_tree(const Soup& soup, const std::vector<std::uint32_t>& triangles, c
     else
       builder.build(tasks[i].range, tasks[i].level, trees[i]);
   });
-  chart.nodes = top.nodes;
+  std::size_t nodes = top.nodes.size(), blocks = 0;
+  for (const Tree& tree : trees) nodes += tree.nodes.size(), blocks += tree.blocks.size();
+  chart.nodes.reserve(nodes);
+  chart.blocks.reserve(blocks);
+  chart.nodes.assign(top.nodes.begin(), top.nodes.end());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const std::uint32_t child = append(chart, trees[i]);
     chart.nodes[tasks[i].node].child[tasks[i].lane] = child;

@@ -13,7 +13,7 @@ struct Case {
   std::string name;
   place::PlacedRoom placed;
   TraceScene scene;
-  std::vector<Ray> rays;            ///< 800 × 600, row by row
+  std::vector<Ray> rays;            ///< 800 × 600, in tiles of 16 × 16 as pictures are drawn
 };
 
 inline std::vector<Ray> camera_rays(geometry::Space space, int width, int height) {
@@ -22,8 +22,11 @@ inline std::vector<Ray> camera_rays(geometry::Space space, int width, int height
   const double half = std::tan(75 * kPi / 360);
   const geometry::Point eye = room_from_eye * geometry::Point();
   std::vector<Ray> rays;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  constexpr int kTile = 16;
+  for (int tile = 0; tile < (height + kTile - 1) / kTile * (width / kTile); ++tile)
+    for (int i = 0; i < kTile * kTile; ++i) {
+      const int x = tile % (width / kTile) * kTile + i % kTile, y = tile / (width / kTile) * kTile + i / kTile;
+      if (y >= height) continue;
       const double u = (2 * (x + 0.5) / width - 1) * half, v = (1 - 2 * (y + 0.5) / height) * half * height / width;
       rays.push_back(ray_from(space, {eye, 0.5}, {room_from_eye * geometry::Tangent(0, 1, -u), v}));
     }

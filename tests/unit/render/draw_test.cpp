@@ -9,6 +9,7 @@
 #include "compiler/room/realise.h"
 #include "compiler/render/shade.h"
 #include "compiler/scene/defaults.h"
+#include "tests/support/threads.h"
 
 using namespace orbc;
 
@@ -160,6 +161,24 @@ TEST_CASE("the film does not depend on the order in which tiles are drawn", "[re
   const render::Film a = render::draw(scene, eye_in(room), options, serial_executor()), b = render::draw(scene, eye_in(room), options, backwards);
   for (std::size_t i = 0; i < a.color.size(); ++i) CHECK((a.color[i].r == b.color[i].r && a.color[i].b == b.color[i].b && a.depth[i] == b.depth[i]));
   CHECK(render::to_exr(a) == render::to_exr(b));
+}
+
+TEST_CASE("threads prepare and draw what one alone does", "[render][threads]") {
+  for (const bool lamp : {false, true}) {
+    scene::Scene s;
+    const place::PlacedRoom room = furnished_room("*22222", lamp, s);
+    const auto film = [&](const Executor& executor) {
+      const trace::TraceScene scene = trace::prepare(room, executor);
+      const light::LightField light = *light::prepare_light(s, room, {}, executor);
+      render::DrawOptions options;
+      if (lamp) options.light = &light;
+      place::Eye eye = eye_in(room);
+      eye.width = 48, eye.height = 40;
+      return render::to_exr(render::draw(scene, eye, options, executor));
+    };
+    const std::string alone = film(serial_executor());
+    for (const int count : {2, 5}) CHECK(film(testing::threads(count)) == alone);
+  }
 }
 
 TEST_CASE("what is cut off shows the background as it is", "[render]") {

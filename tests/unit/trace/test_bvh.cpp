@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "tests/support/threads.h"
 #include "tests/unit/trace/support.h"
 
 using namespace orbc;
@@ -196,4 +197,29 @@ TEST_CASE("a ray meets the same thing alone and among others, bit by bit", "[tra
     }
     CHECK(different == 0);
   }
+}
+
+TEST_CASE("threads build the tree that one alone does, and walk it at once", "[trace][threads]") {
+  auto placed = furnished(regular_room(Space::hyperbolic, 5, 2));
+  placed.parts.push_back(torus_knot(Space::hyperbolic, {}, 0.2, 0.06, 0.5, 1000, 20));  // enough triangles for tasks and for parallel binning
+  placed.parts.push_back(torus_knot(Space::hyperbolic, at_polar(Space::hyperbolic, 0.2, 1), 0.2, 0.06, 0.5, 1000, 20));
+  placed.looks.resize(1);
+  const TraceScene alone = prepare(placed), together = prepare(placed, orbc::testing::threads(4));
+  const Chart &a = alone.objects->charts()[0], &b = together.objects->charts()[0];
+  REQUIRE((a.nodes.size() == b.nodes.size() && a.blocks.size() == b.blocks.size()));
+  int different = 0;
+  for (std::size_t i = 0; i < a.nodes.size(); ++i) different += !std::equal(a.nodes[i].child, a.nodes[i].child + 8, b.nodes[i].child);
+  for (std::size_t i = 0; i < a.blocks.size(); ++i) different += !std::equal(a.blocks[i].triangle, a.blocks[i].triangle + 8, b.blocks[i].triangle);
+  CHECK(different == 0);
+  Random random{8};
+  std::vector<Ray> rays;
+  for (int i = 0; i < 4000; ++i) rays.push_back(random_ray(placed, random));
+  const std::vector<Path> want = follow(alone, rays);
+  std::vector<double> lengths(rays.size());
+  orbc::testing::threads(4)(40, [&](std::size_t task) {
+    const auto paths = follow(together, std::span(rays).subspan(100 * task, 100));
+    for (std::size_t i = 0; i < 100; ++i) lengths[100 * task + i] = paths[i].length;
+  });
+  for (std::size_t i = 0; i < rays.size(); ++i) different += lengths[i] != want[i].length;
+  CHECK(different == 0);
 }
