@@ -13,7 +13,6 @@ namespace {
 using geometry::Vector3;
 
 constexpr double kDepth = 8;
-constexpr double kOutside = 8;
 constexpr double kFrameMargin = 0.02;  // radians
 constexpr double kBetween = 1.03;      // the largest error may lie between the points looked at; measured up to 1.014
 

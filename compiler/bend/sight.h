@@ -5,6 +5,9 @@
 
 namespace orbc::bend {
 
+/// What is outside of a perspective picture may be so many times coarser.
+constexpr double kOutside = 8;
+
 /// How well a picture tells two things apart: turns the distance of a chord from the true curve into a share of the tolerance.
 /// With View::eye the distance counts as it is seen from the eye, in pixels of its picture; with View::disk in chart length.
 struct Sight {

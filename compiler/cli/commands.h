@@ -49,6 +49,7 @@ struct CompileArguments {
   double tolerance = 0.25;
   std::uint64_t max_triangles = 200'000'000;
   std::string max_memory = "4GiB";
+  bool no_lod = false;              ///< every copy in all detail
   std::string report;               ///< a file for the report as JSON; "-" = standard output
   bool nodes_per_copy = false;
   std::string model = "disk";       ///< svg: disk, klein, plane

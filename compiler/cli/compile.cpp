@@ -71,6 +71,7 @@ driver::CompileOptions compile_options(const CompileArguments& a) {
   options.bend.view = a.view == "disk" ? bend::View::disk : bend::View::eye;
   options.bend.tolerance_px = a.tolerance;
   options.bend.max_triangles = a.max_triangles;
+  options.levels = !a.no_lod;
   options.max_memory = parse_bytes(a.max_memory);
   return options;
 }

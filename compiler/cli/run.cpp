@@ -36,6 +36,7 @@ void add_scene(CLI::App& command, SceneArguments& scene) {
 void add_compile_options(CLI::App& command, CompileArguments& a) {
   command.add_option("--tolerance", a.tolerance, "Largest error of a bent edge, in pixels of the picture")->capture_default_str()->check(CLI::Range(1e-4, 1e4))->type_name("PX");
   command.add_option("--max-triangles", a.max_triangles, "Refuse to make more triangles than this")->capture_default_str()->type_name("N");
+  command.add_flag("--no-lod", a.no_lod, "Draw far copies in all detail, too");
   command.add_option("--max-memory", a.max_memory, "Refuse what would take more memory than this")->capture_default_str()->type_name("SIZE");
 }
 

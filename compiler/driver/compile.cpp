@@ -1,10 +1,13 @@
 #include "compiler/driver/compile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "compiler/cover/plan.h"
 #include "compiler/cover/unfold.h"
+#include "compiler/driver/levels.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/light/atlas.h"
 #include "compiler/light/bake.h"
@@ -25,19 +28,33 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
   for (std::size_t i = 0; i < copies.size(); ++i) {
     const cover::Copy& c = copies[i];
     const bend::BentRange& r = ranges[i];
-    result.push_back({r.first_vertex, r.vertex_count, r.first_index, r.index_count, c.weight, c.word, c.bounces, c.sheet, c.cover_from_room.reversing, distance_to(c, eye)});
+    result.push_back({r.first_vertex, r.vertex_count, r.first_index, r.index_count, c.weight, c.word, c.bounces, c.sheet, c.cover_from_room.reversing, distance_to(c, eye),
+                      c.storey.number, c.wedge});
   }
   return result;
 }
 
-/// Plain colours, or, in a scene with lamps, the light of the room.
-Result<light::Atlas> make_atlas(const Opened& opened, const Executor& executor, const Progress& progress) {
-  if (!light::needs_bake(opened.scene, *opened.room)) return light::make_atlas(*opened.room);
+/// Plain colours, or, in a scene with lamps, the light of the room. In: the room with its levels of detail, which cast no shadows.
+Result<light::Atlas> make_atlas(const Opened& opened, const place::PlacedRoom& room, const Executor& executor, const Progress& progress) {
+  if (!light::needs_bake(opened.scene, *opened.room)) return light::make_atlas(room);
   const auto field = light::prepare_light(opened.scene, *opened.room, light::light_options(opened.scene), executor);
   if (!field) return field.error();
-  auto baked = light::bake(*opened.room, *field, {}, executor, progress);
+  auto baked = light::bake(room, *field, {}, executor, progress);
   if (!baked) return baked.error();
   return std::move(baked->atlas);
+}
+
+/// What the copies are drawn from.
+std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock, const Choice& choice) {
+  std::vector<bend::Model> models;
+  for (const auto& levels : choice.models) {
+    models.emplace_back();
+    for (std::size_t p = 0; p < levels.size(); ++p) {
+      const std::uint32_t part = stock.part_of_level[p][levels[p]];
+      models.back().parts.push_back({&atlas.room.parts[part], &atlas.uv[part]});
+    }
+  }
+  return models;
 }
 
 }  // namespace
@@ -57,13 +74,18 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
                                "give them the same reflectance and tint, or leave out --view disk")},
                    opened.scene.span);
   }
+  const bool with_levels = options.levels && options.bend.view == bend::View::eye;
+  report(progress, "levels of detail", 0, 0);
+  const Levels levels = with_levels ? make_levels(*opened.room, executor) : Levels{};
+  const Choice choice = with_levels ? choose_levels(*opened.room, levels, *copies, opened.eye, options.bend) : no_levels(*opened.room, copies->size());
+  const Stock stock = stock_of(*opened.room, levels, choice);
   report(progress, "atlas", 0, 0);
-  auto atlas = make_atlas(opened, executor, progress);
+  auto atlas = make_atlas(opened, stock.room, executor, progress);
   if (!atlas) return located(atlas.error(), opened.scene.span);
   bend::BendOptions bending = options.bend;
   const bool baked = light::needs_bake(opened.scene, *opened.room);
   bending.colours_vary = bending.colours_vary || baked;
-  auto bent = bend::bend(atlas->room, atlas->uv, *copies, opened.eye, bending, executor, progress);
+  auto bent = bend::bend(atlas->room, models_of(*atlas, stock, choice), choice.model_of_copy, *copies, opened.eye, bending, executor, progress);
   if (!bent) return located(bent.error(), opened.scene.span);
 
   Compiled compiled;
@@ -81,7 +103,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
 
   Report& r = compiled.report;
   r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
-  r.error_bound_px = bent->error_bound_px;
+  r.error_bound_px = bent->error_bound_px + choice.error_px;
   for (const DrawnCopy& copy : product.copies) r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
   return compiled;
 }
@@ -104,9 +126,12 @@ Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring
   if (!copies) return located(copies.error(), opened.scene.span);
   std::vector<cover::Copy> first_sheet;
   for (cover::Copy& copy : *copies)
-    if (copy.sheet == 0) first_sheet.push_back(std::move(copy));
-  return Tiling{notation::to_text(opened.scene.orbifold), opened.room->room, std::move(first_sheet), model, colouring};
+    if (copy.sheet == 0 && copy.storey.number == 0) first_sheet.push_back(std::move(copy));
+  return Tiling{notation::to_text(opened.scene.orbifold), opened.room->room, std::move(first_sheet), model, colouring, opened.eye.room_from_eye};
 }
+
+/// Of a bearing, counter-clockwise from the x direction of the eye.
+static double degrees_of(const cover::Bearing& b) { return std::atan2(b.y, b.x) * 180 / std::numbers::pi; }
 
 std::string report_json(const Compiled& compiled) {
   const Report& r = compiled.report;
@@ -114,9 +139,12 @@ std::string report_json(const Compiled& compiled) {
                               {"longest_word", r.longest_word}, {"error_bound_px", r.error_bound_px},
                               {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}}};
   nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
-  for (const DrawnCopy& c : compiled.product.copies)
+  for (const DrawnCopy& c : compiled.product.copies) {
     list.push_back({{"word", cover::to_string(c.word)}, {"bounces", c.bounces}, {"sheet", c.sheet}, {"mirrored", c.reversing}, {"weight", {c.tint.r, c.tint.g, c.tint.b}},
                     {"distance", c.distance}, {"triangles", c.index_count / 3}});
+    if (c.storey != 0) list.back()["storey"] = c.storey;
+    if (c.wedge) list.back()["wedge_deg"] = {degrees_of(c.wedge->from), degrees_of(c.wedge->to)};
+  }
   return json.dump(1) + "\n";
 }
 

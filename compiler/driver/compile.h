@@ -10,6 +10,7 @@ namespace orbc::driver {
 
 struct CompileOptions {
   bend::BendOptions bend;
+  bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within the tolerance as well
   std::uint64_t max_memory = std::uint64_t{4} << 30;
 };
 

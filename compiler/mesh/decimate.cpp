@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
 
 #include "compiler/mesh/nearest.h"
 #include "compiler/mesh/weld.h"
@@ -248,8 +249,9 @@ class Module final : public OpenMesh::Decimater::ModBaseT<MeshT> {
   Work* work_ = nullptr;
 };
 
-Mesh result(const Work& work) {
-  Mesh mesh;
+Decimated result(const Work& work) {
+  Decimated made;
+  Mesh& mesh = made.mesh;
   mesh.positions = work.mesh.positions;
   mesh.uv = work.mesh.uv;
   mesh.looks = work.mesh.looks;
@@ -265,8 +267,8 @@ Mesh result(const Work& work) {
     mesh.triangles.push_back(corners);
     if (!work.mesh.material.empty()) mesh.material.push_back(work.mesh.material[t]);
   }
-  leave_out_unused(mesh);
-  return mesh;
+  made.origin = leave_out_unused(mesh);
+  return made;
 }
 
 double size_of(const Mesh& mesh) {
@@ -280,24 +282,39 @@ double size_of(const Mesh& mesh) {
   return size > 0 ? size : 1;
 }
 
-Decimated once(const Mesh& mesh, std::size_t triangles, double quadric_bound) {
-  Work work{mesh, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 1};
+/// Made ready to be simplified. `size`: of the mesh, for priorities.
+void prepare(Work& work, double size, double quadric_bound) {
   build(work);
   measure(work);
-  const double size = size_of(mesh);
   work.bound = quadric_bound > 0 ? quadric_bound * quadric_bound : std::numeric_limits<double>::infinity();
   work.scale = 1 / (size * size * size * size);
   work.surface.request_face_status();  // to be kept when the decimater is gone
-  {
-    OpenMesh::Decimater::DecimaterT<Surface> decimater(work.surface);
-    typename Module<Surface>::Handle module;
-    decimater.add(module);
-    decimater.module(module).use(work);
-    decimater.initialize();
+}
+
+/// The surface simplified to ever fewer triangles, told at each number.
+template <class Told>
+void simplify(Work& work, const std::vector<std::size_t>& numbers, const Told& told) {
+  OpenMesh::Decimater::DecimaterT<Surface> decimater(work.surface);
+  typename Module<Surface>::Handle module;
+  decimater.add(module);
+  decimater.module(module).use(work);
+  decimater.initialize();
+  for (const std::size_t triangles : numbers) {
     const auto spare = std::min(triangles, work.left_over.size());
-    decimater.decimate_to_faces(0, triangles - spare);
+    // It takes all faces that are stored for alive, those of the steps before as well.
+    std::size_t dead = 0;
+    for (const auto f : work.surface.all_faces()) dead += work.surface.status(f).deleted() ? 1 : 0;
+    decimater.decimate_to_faces(0, triangles - spare + dead);
+    if (!told()) return;
   }
-  Decimated done{result(work), 0};
+}
+
+Decimated once(const Mesh& mesh, std::size_t triangles, double quadric_bound) {
+  Work work{mesh, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 1};
+  const double size = size_of(mesh);
+  prepare(work, size, quadric_bound);
+  simplify(work, {triangles}, [] { return true; });
+  Decimated done = result(work);
   // Measured: each old vertex that is no vertex any more.
   const Nearest nearest(done.mesh);
   std::vector<char> stays(mesh.positions.size(), 0);
@@ -312,18 +329,40 @@ Decimated once(const Mesh& mesh, std::size_t triangles, double quadric_bound) {
   return done;
 }
 
+Decimated unchanged(const Mesh& mesh) {
+  Decimated same{mesh, std::vector<std::uint32_t>(mesh.positions.size()), 0};
+  std::iota(same.origin.begin(), same.origin.end(), 0U);
+  return same;
+}
+
 }  // namespace
 
 Decimated decimate(const Mesh& mesh, const DecimateOptions& options) {
   if (mesh.triangles.size() <= std::max<std::size_t>(options.triangles, 4) || (options.triangles == 0 && options.max_error <= 0))
-    return {mesh, 0};
+    return unchanged(mesh);
   // The quadric error is a mean over planes, the measured one a maximum: when that is too large, less is tried.
   double bound = options.max_error;
   for (int attempt = 0; attempt < 8; ++attempt, bound *= 0.6) {
     auto done = once(mesh, options.triangles, bound);
     if (options.max_error <= 0 || done.error <= options.max_error) return done;
   }
-  return {mesh, 0};
+  return unchanged(mesh);
+}
+
+std::vector<Decimated> decimate_in_steps(const Mesh& mesh, const std::vector<std::size_t>& triangles) {
+  std::vector<Decimated> chain;
+  Work work{mesh, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 1};
+  prepare(work, size_of(mesh), 0);
+  std::size_t last = mesh.triangles.size();
+  simplify(work, triangles, [&] {
+    Decimated step = result(work);
+    // What no longer becomes much coarser is not worth a step.
+    if (step.mesh.triangles.empty() || 10 * step.mesh.triangles.size() > 9 * last) return false;
+    last = step.mesh.triangles.size();
+    chain.push_back(std::move(step));
+    return true;
+  });
+  return chain;
 }
 
 }  // namespace orbc::mesh

@@ -72,13 +72,15 @@ std::uint32_t Nearest::build(std::uint32_t begin, std::uint32_t end) {
   return index;
 }
 
-double Nearest::distance(const Vector3& p, double known) const {
+double Nearest::distance(const Vector3& p, double known) const { return distance(p, known, 0); }
+
+double Nearest::distance(const Vector3& p, double known, double enough) const {
   double best = known * known;
-  if (!nodes_.empty()) search(0, p, best);
+  if (!nodes_.empty()) search(0, p, best, enough * enough);
   return std::sqrt(best);
 }
 
-void Nearest::search(std::uint32_t index, const Vector3& p, double& best) const {
+void Nearest::search(std::uint32_t index, const Vector3& p, double& best, double enough) const {
   const auto& node = nodes_[index];
   if (node.left == 0) {
     for (auto i = node.begin; i < node.end; ++i) {
@@ -90,8 +92,8 @@ void Nearest::search(std::uint32_t index, const Vector3& p, double& best) const 
   const auto &left = nodes_[node.left], &right = nodes_[node.right];
   const double l = to_box(p, left.low, left.high), r = to_box(p, right.low, right.high);
   const bool left_first = l <= r;
-  if (std::min(l, r) < best) search(left_first ? node.left : node.right, p, best);
-  if (std::max(l, r) < best) search(left_first ? node.right : node.left, p, best);
+  if (std::min(l, r) < best) search(left_first ? node.left : node.right, p, best, enough);
+  if (std::max(l, r) < best && best > enough) search(left_first ? node.right : node.left, p, best, enough);
 }
 
 }  // namespace orbc::mesh

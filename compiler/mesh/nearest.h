@@ -12,6 +12,8 @@ class Nearest {
   explicit Nearest(const Mesh& mesh);
   /// Euclidean distance from p to the nearest point of the surface; at most `known` is returned. The mesh must outlive this.
   [[nodiscard]] double distance(const geometry::Vector3& p, double known) const;
+  /// The same, but satisfied with any point at most `enough` away: for who looks for the farthest of many.
+  [[nodiscard]] double distance(const geometry::Vector3& p, double known, double enough) const;
 
  private:
   struct Node {
@@ -20,7 +22,7 @@ class Nearest {
     std::uint32_t left, right;  // 0: a leaf
   };
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
-  void search(std::uint32_t node, const geometry::Vector3& p, double& best) const;
+  void search(std::uint32_t node, const geometry::Vector3& p, double& best, double enough) const;
 
   const Mesh& mesh_;
   std::vector<std::uint32_t> order_;

@@ -29,21 +29,24 @@ std::vector<std::uint32_t> welded(const std::vector<geometry::Vector3>& position
   return first;
 }
 
-void leave_out_unused(Mesh& mesh) {
+std::vector<std::uint32_t> leave_out_unused(Mesh& mesh) {
   std::vector<std::uint32_t> moved(mesh.positions.size(), 0);
   for (const auto& t : mesh.triangles) {
     for (const auto v : t) moved[v] = 1;
   }
   std::uint32_t next = 0;
+  std::vector<std::uint32_t> origin;
   for (std::size_t v = 0; v < moved.size(); ++v) {
     if (!moved[v]) continue;
     mesh.positions[next] = mesh.positions[v];
     if (!mesh.uv.empty()) mesh.uv[next] = mesh.uv[v];
     moved[v] = next++;
+    origin.push_back(static_cast<std::uint32_t>(v));
   }
   mesh.positions.resize(next);
   if (!mesh.uv.empty()) mesh.uv.resize(next);
   for (auto& t : mesh.triangles) t = {moved[t[0]], moved[t[1]], moved[t[2]]};
+  return origin;
 }
 
 }  // namespace orbc::mesh

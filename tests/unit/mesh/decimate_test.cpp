@@ -105,3 +105,18 @@ TEST_CASE("decimation leaves alone what is no surface", "[mesh]") {
   CHECK(examine(coarse.mesh).area == Approx(examine(*fine).area).epsilon(1e-9));
   CHECK(decimate(Mesh{}, {.triangles = 10}).mesh.triangles.empty());
 }
+
+TEST_CASE("a chain of decimations knows where its vertices come from", "[mesh]") {
+  const auto mesh = make_torus_knot(2, 3, 1, 0.2, 200, 16);
+  const auto chain = decimate_in_steps(mesh, {2000, 800, 300, 100});
+  REQUIRE(chain.size() == 4);
+  std::size_t count = mesh.triangles.size();
+  for (const auto& step : chain) {
+    CHECK(step.mesh.triangles.size() < count);
+    CHECK(examine(step.mesh).closed);
+    REQUIRE(step.origin.size() == step.mesh.positions.size());
+    for (std::size_t v = 0; v < step.origin.size(); ++v) CHECK(length(step.mesh.positions[v] - mesh.positions[step.origin[v]]) == 0);
+    count = step.mesh.triangles.size();
+  }
+  CHECK(chain[3].mesh.triangles.size() <= 100);
+}

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "compiler/base/executor.h"
+#include "compiler/bend/detail.h"
+#include "compiler/cover/copy.h"
+#include "compiler/place/placed.h"
+
+namespace orbc::driver {
+
+/// A coarser stand-in of a part of the room. Its vertices are vertices of the part.
+struct Level {
+  place::PlacedMesh mesh;
+  double error = 0;   ///< largest distance found between the two surfaces, both ways, and between their borders and the borders of their looks: intrinsic length
+};
+
+/// Stand-ins per part, coarser and coarser; none of parts that are light already, and of those with pictures, which would be shifted.
+using Levels = std::vector<std::vector<Level>>;
+
+/// Simplifies the heavy objects of a room, once for all copies.
+/// Makes: levels of about 2/5 of the triangles of the one before.
+/// Error: measured at points a few triangles' edges of the part apart (levels.cpp).
+[[nodiscard]] Levels make_levels(const place::PlacedRoom& room, const Executor& executor);
+
+/// Which level of each part a copy is drawn from (0 = the part itself); copies with the same choice share it.
+struct Choice {
+  std::vector<std::vector<std::uint16_t>> models;  ///< distinct ones; at least one
+  std::vector<std::uint32_t> model_of_copy;
+  double error_px = 0;                             ///< bound of what the coarser levels displace in the picture
+};
+
+/// For each copy and part the coarsest level that is displaced by at most the tolerance of `options`.
+[[nodiscard]] Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const std::vector<cover::Copy>& copies, const place::Eye& eye,
+                                   const bend::BendOptions& options);
+/// Every copy whole.
+[[nodiscard]] Choice no_levels(const place::PlacedRoom& room, std::size_t copies);
+
+/// The room with the levels that a choice uses as further parts, to be given colours all at once.
+struct Stock {
+  place::PlacedRoom room;                                 ///< the parts of the room come first
+  std::vector<std::vector<std::uint32_t>> part_of_level;  ///< [part][level]: index in `room.parts`
+};
+[[nodiscard]] Stock stock_of(const place::PlacedRoom& room, const Levels& levels, const Choice& choice);
+
+}  // namespace orbc::driver
