@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct DrawnCopy {
   int bounces = 0, sheet = 0;
   bool reversing = false;
   double distance = 0;              ///< from the eye to the centre of the copy, horizontal
+  int storey = 0;                   ///< mirrors on floor and ceiling: how many storeys up or down
+  std::optional<cover::Wedge> wedge;  ///< the bearings in which it is seen, if not all of it is
 };
 
 /// All that an exporter may know: dense meshes in eye coordinates (z up, right-handed), one atlas, one camera.
@@ -44,6 +47,7 @@ struct Tiling {
   std::vector<cover::Copy> copies;
   enum class Model { disk, klein, plane } model = Model::disk;
   enum class Colouring { parity, length } colouring = Colouring::parity;
+  geometry::Isometry room_from_eye{};  ///< of the eye from which wedges are seen
 };
 
 /// A file to be written: exporters return these and touch no disk.

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "compiler/base/check.h"
 #include "compiler/geometry/chart.h"
@@ -105,6 +106,52 @@ std::vector<Piece> outline_pieces(const room::Room& room) {
     pieces.push_back({p, midpoint(room.space, p, q), q, room.walls[static_cast<std::size_t>(room.outline_wall[i])].line});
   }
   return pieces;
+}
+
+namespace {
+
+/// The pieces to the left of a line (Sutherland and Hodgman, 1974), closed along it. Convex rooms: the border goes out once and comes in once.
+std::vector<Piece> left_of(Space space, const std::vector<Piece>& pieces, const Line& line) {
+  const auto inside = [&](const Point& p) { return value_at(line, p) >= 0; };
+  std::vector<Piece> kept;
+  std::optional<Point> out, in;
+  std::size_t gap = 0;   // where the line goes in
+  for (const Piece& piece : pieces) {
+    const bool from = inside(piece.from), to = inside(piece.to);
+    if (!from && !to) continue;
+    Piece part = piece;
+    if (from != to) {
+      // On the chord, and back to the surface: the geodesic between the two meets the line there.
+      const double a = value_at(line, piece.from), b = value_at(line, piece.to), t = a / (a - b);
+      const Point at = geometry::normalised_point(space, (1 - t) * piece.from + t * piece.to);
+      (from ? part.to : part.from) = at;
+      part.middle = geometry::midpoint(space, part.from, part.to);
+      if (from) out = at, gap = kept.size() + 1;
+      else in = at;
+    }
+    kept.push_back(part);
+  }
+  if (out && in) kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(gap), {*out, geometry::midpoint(space, *out, *in), *in, line});
+  return kept;
+}
+
+}  // namespace
+
+std::vector<Piece> seen_pieces(Space space, const std::vector<Piece>& pieces, const cover::Copy& copy, const geometry::Isometry& room_from_eye) {
+  std::vector<Piece> seen;
+  for (const Piece& p : pieces) {
+    const auto& map = copy.cover_from_room;
+    seen.push_back({map * p.from, map * p.middle, map * p.to, map * p.line});
+  }
+  if (!copy.wedge) return seen;
+  // Counter-clockwise, so that the line along which it is closed runs the same way as the others.
+  if (copy.cover_from_room.reversing) {
+    std::reverse(seen.begin(), seen.end());
+    for (Piece& p : seen) std::swap(p.from, p.to);
+  }
+  const cover::Bearing &from = copy.wedge->from, &to = copy.wedge->to;
+  for (const Line& border : {Line{0, -from.y, from.x}, Line{0, to.y, -to.x}}) seen = left_of(space, seen, room_from_eye * border);
+  return seen;
 }
 
 Complex on_page(const Page& page, const Point& p) {

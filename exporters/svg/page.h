@@ -25,6 +25,10 @@ struct Piece {
 
 [[nodiscard]] std::vector<Piece> outline_pieces(const room::Room& room);
 
+/// The pieces of a copy, in the cover, cut to its wedge: what an eye at `room_from_eye` sees of it there. Nothing when that is nothing.
+/// In: the pieces of the room; a copy of sheet 0.
+[[nodiscard]] std::vector<Piece> seen_pieces(geometry::Space space, const std::vector<Piece>& pieces, const cover::Copy& copy, const geometry::Isometry& room_from_eye);
+
 /// Fits the tiling on a page `width` wide. `pieces` are those of its room.
 [[nodiscard]] Page make_page(const driver::Tiling& tiling, const std::vector<Piece>& pieces, double width);
 

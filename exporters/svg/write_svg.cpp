@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "compiler/base/rational.h"
 #include "compiler/geometry/chart.h"
@@ -64,13 +65,24 @@ struct Tile {
   TilePath path;
 };
 
+/// What of a copy the eye sees: a copy behind mirrors that differ, or of a room that is no orbifold, is cut to its wedge.
+TilePath wedge_path(const Tiling& tiling, const Page& page, const std::vector<Piece>& pieces, const cover::Copy& copy) {
+  const std::vector<Piece> seen = seen_pieces(tiling.room.space, pieces, copy, tiling.room_from_eye);
+  if (seen.size() < 2) return {};
+  return tile_path(page, seen, geometry::identity(tiling.room.space));
+}
+
 /// The copies that are large enough to be seen, in their order.
 std::vector<Tile> visible_tiles(const Tiling& tiling, const Page& page, const std::vector<Piece>& pieces, double smallest) {
   std::vector<Tile> tiles;
+  std::set<std::string> stacked;
   for (const cover::Copy& copy : tiling.copies) {
-    if (copy.sheet != 0) continue;
-    TilePath path = tile_path(page, pieces, copy.cover_from_room);
-    if (!path.d.empty() && path.diameter >= smallest) tiles.push_back({&copy, std::move(path)});
+    if (copy.sheet != 0 || copy.storey.number != 0) continue;
+    TilePath path = copy.wedge ? wedge_path(tiling, page, pieces, copy) : tile_path(page, pieces, copy.cover_from_room);
+    if (path.d.empty() || path.diameter < smallest) continue;
+    // Mirrors above each other show copies in the same wedge: from above there is one.
+    if (!copy.sills.empty() && !stacked.insert(path.d).second) continue;
+    tiles.push_back({&copy, std::move(path)});
   }
   return tiles;
 }
@@ -160,6 +172,7 @@ std::vector<driver::File> write_svg(const Tiling& tiling, const SvgOptions& opti
          " drawn copies; " + chart_name(tiling) + ". The room itself is orange" +
          (tiling.colouring == Tiling::Colouring::parity ? ", mirror images are dark, their mirror images light"
                                                        : ", copies are coloured by the number of mirrors on the way to them") +
+         (std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.copy->wedge.has_value(); }) ? ", copies are cut to what the eye sees of them" : "") +
          (options.labels ? ". Circles hold the orders of the corners, italic numbers count the walls" : "") + ".</desc>\n";
   out += "<rect width=\"100%\" height=\"100%\" fill=\"" + std::string(kPaper) + "\"/>\n";
   if (framed) {

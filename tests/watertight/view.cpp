@@ -123,9 +123,10 @@ Holes holes(const driver::Opened& opened, const driver::Product& product, const 
     for (int x = 0; x < eye.width; ++x) {
       if (seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width) + static_cast<std::size_t>(x)]) continue;
       ++found.open;
+      // Rings within the tolerance of a chord: the background may be a slit.
       bool cut_off = false;
-      for (int j = 0; j < 9 && !cut_off; ++j) {
-        const double r = j == 0 ? 0 : 0.3, dx = r * std::cos(j * M_PI / 4), dy = r * std::sin(j * M_PI / 4);
+      for (int j = 0; j < 37 && !cut_off; ++j) {
+        const double r = j == 0 ? 0 : j < 13 ? 0.05 : j < 25 ? 0.12 : 0.3, dx = r * std::cos(j * M_PI / 6), dy = r * std::sin(j * M_PI / 6);
         cut_off = trace::follow(scene, render::eye_ray(eye, x + 0.5 + dx, y + 0.5 + dy), options).cut_off;
       }
       if (cut_off) continue;

@@ -217,3 +217,51 @@ TEST_CASE("coordinates have three digits and no more than they need", "[svg]") {
 TEST_CASE("the same tiling gives the same bytes", "[svg]") {
   CHECK(svg::write_svg(tiling_of("*237"))[0].bytes == svg::write_svg(tiling_of("*237"))[0].bytes);
 }
+
+TEST_CASE("a copy is cut to its wedge, in every space and chart", "[svg]") {
+  const char* notation = GENERATE("*333", "*22222", "*235");
+  const Model model = GENERATE(Model::disk, Model::klein);
+  driver::Tiling tiling = tiling_of(notation, model);
+  tiling.copies.resize(2);
+  const auto whole = svg::write_svg(tiling).front().bytes;
+  // The image in wall 1, seen from the centre of the room, left and right of the direction to the middle of its wall.
+  const auto& wall = tiling.room.walls[0];
+  const auto middle = geometry::point_along(tiling.room.space, wall.start, wall.along, wall.length / 2);
+  tiling.room_from_eye = geometry::identity(tiling.room.space);
+  const double rho = std::hypot(middle.x, middle.y), c = middle.x / rho, s = middle.y / rho;
+  const std::vector<svg::Piece> pieces = svg::outline_pieces(tiling.room);
+  cover::Copy left = tiling.copies[1], right = left;
+  left.wedge = cover::Wedge{{c, s}, {-s, c}};
+  right.wedge = cover::Wedge{{s, -c}, {c, s}};
+  double sum = 0;
+  for (const cover::Copy& half : {left, right}) {
+    const auto seen = svg::seen_pieces(tiling.room.space, pieces, half, tiling.room_from_eye);
+    REQUIRE(seen.size() >= 3);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const auto &p = seen[i].to, &q = seen[(i + 1) % seen.size()].from;   // closed, and on its lines
+      CHECK(std::hypot(p.x - q.x, p.y - q.y) < 1e-12);
+      CHECK(std::abs(value_at(seen[i].line, seen[i].middle)) < 1e-12);
+      sum += seen[i].from.x * seen[i].to.y - seen[i].from.y * seen[i].to.x;   // about the border; the cut counts once each way
+    }
+  }
+  double all = 0;
+  for (const svg::Piece& p : svg::seen_pieces(tiling.room.space, pieces, tiling.copies[1], tiling.room_from_eye)) all += p.from.x * p.to.y - p.from.y * p.to.x;
+  if (tiling.room.space == geometry::Space::euclidean) CHECK(sum == Approx(std::abs(all)));
+  tiling.copies[1] = left;
+  const auto cut = svg::write_svg(tiling).front().bytes;
+  CHECK(cut != whole);
+  CHECK(cut.find("cut to what the eye sees") != std::string::npos);
+  // A wedge that misses the copy shows nothing of it.
+  cover::Copy missed = left;
+  missed.wedge = cover::Wedge{{-c, -s}, {-c + 1e-3 * s, -s - 1e-3 * c}};
+  if (tiling.room.space != geometry::Space::spherical) CHECK(svg::seen_pieces(tiling.room.space, pieces, missed, tiling.room_from_eye).empty());
+}
+
+TEST_CASE("storeys above each other are one room from above", "[svg]") {
+  driver::Tiling tiling = tiling_of("*2222");
+  const auto one = svg::write_svg(tiling).front().bytes;
+  cover::Copy above = tiling.copies.front();
+  above.storey = {1, -1, 2};
+  tiling.copies.push_back(above);
+  CHECK(svg::write_svg(tiling).front().bytes == one);
+}
