@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "compiler/light/blocks.h"
+#include "compiler/light/light_grid.h"
+#include "compiler/light/passing.h"
 
 namespace orbc::light {
 namespace {
@@ -24,7 +27,8 @@ constexpr double kContrast = 5;     // steps of 1/255 between neighbouring point
 constexpr int kMaxLevel = 11;       // of a block: 2049 texels a side
 constexpr double kGrains = 8;       // texels per cell of a solid pattern
 
-int level_of(double cells) { return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel); }
+// Halvings that make so many cells; a half of one is rounded off, since meshes finer than asked for gain nothing.
+int level_of(double cells) { return std::clamp(static_cast<int>(std::lround(std::log2(std::max(1.0, cells)))), 0, kMaxLevel); }
 
 struct Part {
   const place::PlacedRoom& room;
@@ -58,10 +62,10 @@ class BlockBaker {
     plain_ = part.room.looks[static_cast<std::size_t>(look)].color;
   }
 
-  Finished run() {
+  /// Irradiance from lamps, as finely as it asks for.
+  LightGrid light() {
     const int a0 = level_of(block_.length_u * part_.options.coarse), b0 = level_of(block_.length_v * part_.options.coarse);
-    const double fine = varies_ ? pattern_density() : part_.options.fine;
-    const int a = std::max(a0, level_of(block_.length_u * fine)), b = std::max(b0, level_of(block_.length_v * fine));
+    const int a = std::max(a0, level_of(block_.length_u * part_.options.fine)), b = std::max(b0, level_of(block_.length_v * part_.options.fine));
     grid_.w = (1 << a) + 1, grid_.h = (1 << b) + 1;
     grid_.light.resize(static_cast<std::size_t>(grid_.w) * grid_.h);
     grid_.rough.assign(grid_.light.size(), 0);
@@ -75,7 +79,38 @@ class BlockBaker {
       if (refine(su, sv, nu, nv)) used_u = nu, used_v = nv;
       su = nu, sv = nv;
     }
-    return varies_ ? finish(1, 1) : finish(used_u, used_v);
+    return thinned(used_u, used_v);
+  }
+
+  /// Its texels: light times colour. In: what lamps give, and what surfaces pass on (over π), if they do.
+  Finished finish(const LightGrid& lamps, const LightGrid* passed) {
+    Finished done;
+    done.asked = lamps.asked;
+    const double fine = varies_ ? pattern_density() : 0;
+    const auto points = [&](double length, int own, int other) { return std::max({own, other, (1 << level_of(length * fine)) + 1}); };
+    const int w = done.box.width = points(block_.length_u, lamps.w, passed ? finer(lamps.w, passed->w) : 0);
+    const int h = done.box.height = points(block_.length_v, lamps.h, passed ? finer(lamps.h, passed->h) : 0);
+    std::vector<Color> shown_at(static_cast<std::size_t>(w) * h);
+    for (int j = 0; j < h; ++j)
+      for (int i = 0; i < w; ++i) {
+        Color& c = shown_at[static_cast<std::size_t>(j) * w + i];
+        const double u = static_cast<double>(i) / (w - 1), v = static_cast<double>(j) / (h - 1);
+        if (block_.second >= 0 || u + v <= 1 + 1e-9) {
+          Color light = light_at(lamps, u, v);
+          if (passed) light = light + std::numbers::pi * light_at(*passed, u, v);
+          c = part_.field.exposure * radiance_out(part_.field, *material_, varies_ ? albedo(u, v) : plain_, light);
+        } else {  // a single triangle beyond its long side, which the lookup only touches one texel deep
+          const auto at = [&](int x, int y) { return shown_at[static_cast<std::size_t>(y) * w + x]; };
+          c = at(i - 1, j) + at(i, j - 1) + -1.0 * at(i - 1, j - 1);
+          c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
+        }
+      }
+    done.texels.reserve(shown_at.size());
+    for (const Color& c : shown_at) {
+      const auto code = [](double v) { return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
+      done.texels.push_back({code(c.r), code(c.g), code(c.b), 255});
+    }
+    return done;
   }
 
  private:
@@ -95,7 +130,6 @@ class BlockBaker {
   }
 
   void ask(int i, int j) {
-    ++grid_.asked;
     Color& light = grid_.light[index(i, j)];
     if (material_->kind == scene::MaterialKind::emissive) return;
     const bool corner = (i == 0 || i == grid_.w - 1) && (j == 0 || j == grid_.h - 1);
@@ -106,8 +140,23 @@ class BlockBaker {
       light = part_.at_vertex[part_.normals.corners[t][k]];
       return;
     }
+    ++grid_.asked;
     const InTriangle at = place(i, j);
-    light = irradiance(part_.field, light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b));
+    if (!near_known_) near_ = images_near_block(), near_known_ = true;
+    light = irradiance(part_.field, light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b), near_);
+  }
+
+  std::vector<std::uint32_t> images_near_block() const {
+    const geometry::Space space = part_.room.room.space;
+    const InTriangle middle = in_triangle(block_, 0.5, 0.5);
+    const geometry::Position centre = light_point(part_.room, part_.mesh, part_.normals, middle.triangle, middle.b).at;
+    double radius = 0;
+    for (int k = 0; k < 6; ++k) {
+      if (k > 2 && block_.second < 0) break;
+      const std::uint32_t v = part_.mesh.triangles[k < 3 ? block_.first : static_cast<std::size_t>(block_.second)][static_cast<std::size_t>(k % 3)];
+      radius = std::max(radius, std::hypot(geometry::distance(space, centre.floor, part_.mesh.floor[v]), part_.mesh.z[v] - centre.z));
+    }
+    return images_near(part_.field, centre, 1.2 * radius);
   }
 
   std::array<double, 3> shown(const Color& light) const {
@@ -157,8 +206,8 @@ class BlockBaker {
     return true;
   }
 
-  Color albedo(int i, int j) const {
-    const InTriangle at = place(i, j);
+  Color albedo(double u, double v) const {
+    const InTriangle at = in_triangle(block_, u, v);
     SurfaceKey key;
     key.look = part_.mesh.look[at.triangle];
     key.color = plain_;
@@ -174,30 +223,30 @@ class BlockBaker {
     return surface_albedo(part_.room, key);
   }
 
-  Finished finish(int step_u, int step_v) {
-    Finished done;
-    done.asked = grid_.asked;
-    done.box.width = (grid_.w - 1) / step_u + 1, done.box.height = (grid_.h - 1) / step_v + 1;
-    const int w = done.box.width, h = done.box.height;
-    std::vector<Color> shown_at(static_cast<std::size_t>(w) * h);
-    for (int j = 0; j < h; ++j)
-      for (int i = 0; i < w; ++i) {
-        Color& c = shown_at[static_cast<std::size_t>(j) * w + i];
+  // Every step-th point; those beyond the long side of a single triangle continue it.
+  LightGrid thinned(int step_u, int step_v) const {
+    LightGrid thin;
+    thin.asked = grid_.asked;
+    thin.w = (grid_.w - 1) / step_u + 1, thin.h = (grid_.h - 1) / step_v + 1;
+    thin.light.resize(static_cast<std::size_t>(thin.w) * thin.h);
+    for (int j = 0; j < thin.h; ++j)
+      for (int i = 0; i < thin.w; ++i) {
+        std::array<float, 3>& to = thin.point(i, j);
         if (valid(i * step_u, j * step_v)) {
-          c = part_.field.exposure * radiance_out(part_.field, *material_, varies_ ? albedo(i * step_u, j * step_v) : plain_,
-                                                  grid_.light[index(i * step_u, j * step_v)]);
-        } else {  // a single triangle beyond its long side, which the lookup only touches one texel deep
-          const auto at = [&](int x, int y) { return shown_at[static_cast<std::size_t>(y) * w + x]; };
-          c = at(i - 1, j) + at(i, j - 1) + -1.0 * at(i - 1, j - 1);
-          c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
+          const Color& c = grid_.light[index(i * step_u, j * step_v)];
+          to = {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+        } else {
+          for (std::size_t k = 0; k < 3; ++k) to[k] = std::max(0.0f, thin.point(i - 1, j)[k] + thin.point(i, j - 1)[k] - thin.point(i - 1, j - 1)[k]);
         }
       }
-    done.texels.reserve(shown_at.size());
-    for (const Color& c : shown_at) {
-      const auto code = [](double v) { return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
-      done.texels.push_back({code(c.r), code(c.g), code(c.b), 255});
-    }
-    return done;
+    return thin;
+  }
+
+  // The least multiple of a grid's cells that is as fine as another's: texels on the points of the first stay on them.
+  static int finer(int own, int other) {
+    int cells = own - 1;
+    while (cells < other - 1) cells *= 2;
+    return cells + 1;
   }
 
   const Part& part_;
@@ -206,6 +255,8 @@ class BlockBaker {
   const scene::Material* material_ = nullptr;
   Color plain_;
   bool varies_ = false;
+  std::vector<std::uint32_t> near_;  ///< images that matter here
+  bool near_known_ = false;
 };
 
 void light_vertices(Part& part, const Executor& executor, const Progress& progress) {
@@ -214,8 +265,19 @@ void light_vertices(Part& part, const Executor& executor, const Progress& progre
   std::atomic<std::uint64_t> done{0};
   executor((part.at_vertex.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t end = std::min((chunk + 1) * kChunk, part.at_vertex.size());
+    const auto position = [&](std::size_t i) {
+      const std::uint32_t v = part.normals.vertices[i].vertex;
+      return geometry::Position{part.mesh.floor[v], part.mesh.z[v]};
+    };
+    const geometry::Position centre = position(chunk * kChunk);
+    double radius = 0;
+    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+      const geometry::Position p = position(i);
+      radius = std::max(radius, std::hypot(geometry::distance(part.room.room.space, centre.floor, p.floor), p.z - centre.z));
+    }
+    const std::vector<std::uint32_t> near = images_near(part.field, centre, radius);
     for (std::size_t i = chunk * kChunk; i < end; ++i)
-      part.at_vertex[i] = irradiance(part.field, light_point(part.room, part.mesh, part.normals.vertices[i]));
+      part.at_vertex[i] = irradiance(part.field, light_point(part.room, part.mesh, part.normals.vertices[i]), near);
     if (chunk % 16 == 0) report(progress, "baking", done.fetch_add(16 * kChunk), part.at_vertex.size(), "points");
   });
 }
@@ -264,6 +326,26 @@ Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vecto
 
 }  // namespace
 
+BakeOptions bake_options(const scene::BakeSpec& spec) {
+  BakeOptions options;
+  if (spec.quality == scene::BakeQuality::draft) {
+    options.coarse = 12, options.fine = 48, options.texture_fine = 200, options.tolerance = 5;
+    options.passing = {64, 4};
+  }
+  if (spec.quality == scene::BakeQuality::fine) {
+    options.coarse = 48, options.fine = 400, options.texture_fine = 600, options.tolerance = 1;
+    options.passing = {1024, 16};
+  }
+  if (spec.samples) options.passing.samples = *spec.samples;
+  return options;
+}
+
+LightOptions baked_light_options(const scene::Scene& scene) {
+  LightOptions options = light_options(scene);
+  if (scene.bake.quality == scene::BakeQuality::draft) options.cut = 1.0 / 128, options.step = 0.05;
+  return options;
+}
+
 bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
   if (!scene.lamps.empty() || scene.integrator == scene::Integrator::path) return true;
   return std::any_of(room.parts.begin(), room.parts.end(), [&](const PlacedMesh& part) {
@@ -276,23 +358,35 @@ bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
 Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const BakeOptions& options, const Executor& executor,
                    const Progress& progress) {
   std::vector<std::vector<Block>> blocks;
-  std::vector<Finished> finished;
   std::vector<std::size_t> first;
+  std::vector<PartNormals> own(room.parts.size());   // of fields that have none
+  std::vector<const PartNormals*> normals;
+  std::vector<Part> parts;
+  std::vector<LightGrid> lamps;
   Baked baked;
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
-    const PartNormals own = p < field.normals.size() ? PartNormals{} : part_normals(room, room.parts[p]);
-    Part part{room, field, options, room.parts[p], p < field.normals.size() ? field.normals[p] : own, {}};
+    if (p >= field.normals.size()) own[p] = part_normals(room, room.parts[p]);
+    normals.push_back(p < field.normals.size() ? &field.normals[p] : &own[p]);
+    Part& part = parts.emplace_back(Part{room, field, options, room.parts[p], *normals[p], {}});
     light_vertices(part, executor, progress);
     blocks.push_back(blocks_of(room, static_cast<std::uint32_t>(p), part.normals));
-    first.push_back(finished.size());
-    finished.resize(finished.size() + blocks.back().size());
+    first.push_back(lamps.size());
+    lamps.resize(lamps.size() + blocks.back().size());
     std::atomic<std::uint64_t> done{0};
     executor(blocks.back().size(), [&](std::size_t i) {
-      finished[first[p] + i] = BlockBaker(part, blocks[p][i]).run();
+      lamps[first[p] + i] = BlockBaker(part, blocks[p][i]).light();
       report(progress, "baking", done.fetch_add(1), blocks[p].size(), "blocks");
     });
     baked.counts.points += part.at_vertex.size();
   }
+  std::vector<LightGrid> passed;
+  if (field.options.passes > 0) passed = pass_on({room, field, normals, blocks, lamps}, options.passing, executor, progress);
+  std::vector<Finished> finished(lamps.size());
+  for (std::size_t p = 0; p < room.parts.size(); ++p)
+    executor(blocks[p].size(), [&](std::size_t i) {
+      const std::size_t at = first[p] + i;
+      finished[at] = BlockBaker(parts[p], blocks[p][i]).finish(lamps[at], passed.empty() ? nullptr : &passed[at]);
+    });
   std::vector<Box> boxes;
   for (const Finished& f : finished) {
     boxes.push_back(f.box);

@@ -2,6 +2,7 @@
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/light/atlas.h"
+#include "compiler/light/passing.h"
 #include "compiler/light/shade.h"
 
 namespace orbc::light {
@@ -13,7 +14,12 @@ struct BakeOptions {
   double texture_fine = 400;        ///< the same where a texture or a solid pattern does
   double tolerance = 1.5;           ///< in steps of 1/255 of the picture: what lies between points may be off by
   int max_side = 16384;             ///< pixels of the atlas
+  PassOptions passing;              ///< of what surfaces pass on to each other, if LightField::options say that they do
 };
+/// What the author of a scene, or the command line, says of it.
+[[nodiscard]] BakeOptions bake_options(const scene::BakeSpec& spec);
+/// Light for a bake of that quality: a draft leaves out more of what adds little.
+[[nodiscard]] LightOptions baked_light_options(const scene::Scene& scene);
 
 /// Whether the plain colours of `make_atlas` do not suffice: there are lamps, or solid patterns (which a field without lamps shows unlit).
 [[nodiscard]] bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room);

@@ -27,8 +27,10 @@ constexpr double kDefaultHeight = 0.9;  // of the room's
 
 double fraction(double v) { return v - std::floor(v); }
 
-// The i-th point of the unit square.
+// The i-th point of the unit square; the first four have its mean and its second moments.
 std::array<double, 2> spread(int i) {
+  constexpr double kAside = 0.28867513459481287;  // 1/√12
+  if (i < kDesign) return {0.5 + (i % 2 ? kAside : -kAside), 0.5 + (i / 2 ? kAside : -kAside)};
   constexpr double kPlastic = 1.32471795724474602596;
   return {fraction(0.5 + (i + 1) / kPlastic), fraction(0.5 + (i + 1) / (kPlastic * kPlastic))};
 }
@@ -60,10 +62,16 @@ Vector3 offset(const scene::Lamp& lamp, const Mount& mount, int i) {
   const auto [u, v] = spread(i);
   if (lamp.kind == LampKind::rectangle) return ((u - 0.5) * lamp.size[0]) * mount.across + ((v - 0.5) * lamp.size[1]) * mount.other;
   const double turn = 2 * std::numbers::pi * u;
+  if (lamp.kind == LampKind::disk && i < kDesign)
+    return ((i % 2 ? 0.5 : -0.5) * lamp.radius) * mount.across + ((i / 2 ? 0.5 : -0.5) * lamp.radius) * mount.other;
   if (lamp.kind == LampKind::disk)
     return (lamp.radius * std::sqrt(v) * std::cos(turn)) * mount.across + (lamp.radius * std::sqrt(v) * std::sin(turn)) * mount.other;
   // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on the sphere of radius √(3/4) of
   //                                                                                                     it.
+  if (i < kDesign) {  // a tetrahedron
+    const double side = lamp.radius / 2, x = i == 0 || i == 1 ? side : -side, y = i == 0 || i == 2 ? side : -side;
+    return {x, y, i == 0 || i == 3 ? side : -side};
+  }
   const double z = 1 - 2 * v, r = std::sqrt(std::max(0.0, 1 - z * z)), size = lamp.radius * 0.8660254037844386;
   return {size * r * std::cos(turn), size * r * std::sin(turn), size * z};
 }
@@ -76,7 +84,8 @@ void add_samples(const scene::Lamp& lamp, Space space, const std::optional<Posit
       hung.axes.push_back(trace::direction_at(space, segment.ray, t));
     };
     add(segment.length / 2);
-    for (int i = 0; i < kSamples; ++i) add(segment.length * fraction(0.5 + (i + 1) * 0.6180339887498949));
+    for (const double u : {0.104, 0.4, 0.6, 0.896}) add(segment.length * u);  // mean ½, variance 1/12
+    for (int i = kDesign; i < kSamples; ++i) add(segment.length * fraction(0.5 + (i + 1) * 0.6180339887498949));
     hung.centre = hung.samples.front();
     hung.extent = segment.length / 2 + lamp.radius;
     return;

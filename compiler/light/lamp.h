@@ -7,6 +7,10 @@
 
 namespace orbc::light {
 
+/// So many samples of a lamp with an extent, from its second on, give the light of all of it by themselves: their mean and their spread are
+/// those of the lamp.
+inline constexpr int kDesign = 4;
+
 /// A place near a lamp where a surface is lit most: the point of floor, ceiling or a plain wall next to it.
 struct Foot {
   geometry::Position at;

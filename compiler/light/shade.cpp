@@ -20,8 +20,8 @@ using geometry::Space;
 using scene::Color;
 using trace::Direction;
 
-constexpr double kStep = 0.012;       // of white: what one sample of a lamp may add
-constexpr int kProbes = 4;            // samples that decide whether there is a penumbra at all
+constexpr int kProbes = kDesign;      // samples that decide whether there is a penumbra at all
+constexpr double kSmall = 0.25;       // extent of a lamp over its distance: the third order is 1.5 % of it, and less of the light
 
 double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
@@ -37,15 +37,19 @@ double expected(const LightField& field, const LampImage& image, const LightPoin
          falloff(lamp.falloff, space, std::max(way.length, lamp.radius), way.arc, lamp.radius);
 }
 
+/// The most that an image can add to a white surface so far away, white = 1.
+double at_most(const LightField& field, const LampImage& image, const HungLamp& lamp, double length, double arc) {
+  return largest(lamp.power) / std::numbers::pi * field.exposure * image.weight * lamp.gain *
+         falloff(lamp.falloff, field.scene.prism.space, std::max(length - lamp.extent, lamp.radius), arc, lamp.radius);
+}
+
 /// Adds up f(way, light) over the samples of an image, light = unhindered × weight; f(way) = 0 costs no ray.
 template <class F>
 Color gather(const LightField& field, const LampImage& image, const LightPoint& point, bool by_cosine, const F& f) {
   const Space space = field.scene.prism.space;
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way middle = way_to(space, point.origin, image.samples[0], image.sheet);
-  const double power = largest(lamp.power) / std::numbers::pi * field.exposure;
-  double most = power * image.weight * lamp.gain *
-                falloff(lamp.falloff, space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
+  double most = at_most(field, image, lamp, middle.length, middle.arc);
   if (most < field.options.cut) return {};
   if (by_cosine && middle.exists) {  // the lamp's own extent turns the direction to its samples by little
     const double cosine = trace::inner(space, middle.start, point.normal) + 2 * lamp.extent / middle.length;
@@ -54,27 +58,34 @@ Color gather(const LightField& field, const LampImage& image, const LightPoint& 
     if (most < field.options.cut) return {};
   }
   const int all = static_cast<int>(image.samples.size()) - 1;
-  const int count = all > 0 ? std::clamp(static_cast<int>(std::ceil(most / kStep)), 1, all) : 1;
+  const int count = all > 0 ? std::clamp(static_cast<int>(std::ceil(most / field.options.step)), 1, all) : 1;
   const auto sample = [&](int i) { return static_cast<std::size_t>(count == 1 ? 0 : i + 1); };
   Color sum, seen;
   int asked = 0;
   bool same = true;
-  for (int i = 0; i < count; ++i) {
+  // The probes alone give the light of the whole lamp to the third order in its size (lamp.cpp), so where they agree they are enough.
+  const bool small = lamp.extent < kSmall * middle.length;
+  int used = count;
+  for (int i = 0; i < used; ++i) {
     const Way way = way_to(space, point.origin, image.samples[sample(i)], image.sheet);
-    if (!way.exists) continue;
-    const double share = f(way);
-    if (share <= 0) continue;
-    const double light = share * unhindered(field, image, lamp, sample(i), point, way);
-    if (light <= 0) continue;
-    if (!(asked >= kProbes && same)) {
-      const Color weight = arriving(field, image, lamp, sample(i), point, way);
-      same = same && (asked == 0 || weight == seen);
-      seen = weight;
-      ++asked;
+    const double share = way.exists ? f(way) : 0;
+    const double light = share > 0 ? share * unhindered(field, image, lamp, sample(i), point, way) : 0;
+    if (light > 0) {
+      if (asked < kProbes || !same) {
+        const Color weight = arriving(field, image, lamp, sample(i), point, way);
+        same = same && (asked == 0 || weight == seen);
+        seen = weight;
+        ++asked;
+      }
+      sum = sum + light * seen;
     }
-    sum = sum + light * seen;
+    if (i + 1 == kProbes && small && same && asked == kProbes) used = kProbes;
   }
-  return (1.0 / count) * (lamp.power * sum);
+  return (1.0 / used) * (lamp.power * sum);
+}
+
+Color falling(const LightField& field, const LampImage& image, const LightPoint& point) {
+  return gather(field, image, point, true, [&](const Way& way) { return trace::inner(field.scene.prism.space, way.start, point.normal); });
 }
 
 bool inside_something(const trace::TraceScene& scene, const Position& p) {
@@ -89,6 +100,9 @@ LightOptions light_options(const scene::Scene& scene) {
   LightOptions options;
   options.bounces = scene.bake.mirrors;
   if (scene.integrator == scene::Integrator::path) options.passes = scene.bake.bounces;
+  options.leg_bounces = scene.cover.max_bounces;
+  options.leg_min_weight = scene.cover.min_weight;
+  options.background = (1 / std::max(scene.exposure, 1e-300)) * scene.cover.background;
   options.seed = static_cast<std::uint64_t>(scene.bake.seed);
   return options;
 }
@@ -129,10 +143,27 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
 
 Color irradiance(const LightField& field, const LightPoint& point) {
   Color sum;
-  const Space space = field.scene.prism.space;
-  const auto cosine = [&](const Way& way) { return trace::inner(space, way.start, point.normal); };
-  for (const LampImage& image : field.images) sum = sum + gather(field, image, point, true, cosine);
+  for (const LampImage& image : field.images) sum = sum + falling(field, image, point);
   return sum;
+}
+
+Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images) {
+  Color sum;
+  for (const std::uint32_t i : images) sum = sum + falling(field, field.images[i], point);
+  return sum;
+}
+
+std::vector<std::uint32_t> images_near(const LightField& field, const Position& centre, double radius) {
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < field.images.size(); ++i) {
+    const LampImage& image = field.images[i];
+    const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
+    const Way way = way_to(field.scene.prism.space, centre, image.samples[0], image.sheet);
+    // On S² the focus makes falloff no function of distance alone that decreases.
+    const bool decreases = field.scene.prism.space != Space::spherical;
+    if (!decreases || at_most(field, image, lamp, way.length - radius, std::max(way.arc - radius, 0.0)) >= field.options.cut) near.push_back(i);
+  }
+  return near;
 }
 
 Color irradiance_guess(const LightField& field, const LightPoint& point, const std::array<double, 3>& u) {

@@ -12,7 +12,11 @@ namespace orbc::light {
 
 struct LightOptions {
   int bounces = 2;                  ///< mirrors that the light of lamps is followed over
+  double step = 0.012;              ///< of white: what one sample of a lamp may add to a point; its shadows have such steps
   int passes = 0;                   ///< how often matte surfaces may pass light on to each other; 0: `integrator: direct`
+  int leg_bounces = 12;             ///< of light that surfaces pass on: mirrors from one surface to the next,
+  double leg_min_weight = 0;        ///< and the weight below which it is cut off;
+  scene::Color background;          ///< then this is seen, as it is
   std::uint64_t seed = 1;           ///< of random numbers, for pictures that need them
   double cut = 1.0 / 1000;          ///< images that could add less than this to a white surface (white = 1 in the picture) are left out
 };
@@ -44,6 +48,10 @@ struct LightField {
 /// Error:  shadows of lamps with an extent are those of 32 points; images below `cut` are left out; light that comes by surfaces other than
 ///         mirrors is not in it.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point);
+/// The same from some of the images.
+[[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images);
+/// The images that can add anything at points within `radius` of a position: for many points that lie together.
+[[nodiscard]] std::vector<std::uint32_t> images_near(const LightField& field, const geometry::Position& centre, double radius);
 
 /// A guess of `irradiance` from one shadow ray to one sample of one image: its mean over even numbers u in [0, 1) is the irradiance.
 [[nodiscard]] scene::Color irradiance_guess(const LightField& field, const LightPoint& point, const std::array<double, 3>& u);

@@ -8,10 +8,10 @@ namespace orbc::render {
 /// Makes: a walk from surface to surface. Directions by light::Guide in the product metric's tangent frame; each leg is a geodesic through
 ///        the real mirrors, and on through mirror and glass objects; each matte surface shows what its lamps give it (a guess by one shadow
 ///        ray: the bodies of lamps are not there, so nothing counts twice) and ambient light; each emissive one its light. Ends after
-///        `light->options.passes` surfaces, by Russian roulette, or at a cut-off mirror, which shows the background.
+///        `field.options.passes` surfaces, by Russian roulette, or at a cut-off mirror, which shows the background.
 /// Exact: its mean over random numbers is the light asked for, but for: caustics (light of lamps by mirror and glass objects), and
 ///        highlights, which only eyes see.
-[[nodiscard]] scene::Color passed_on(const place::PlacedRoom& room, const DrawOptions& options, const light::LightPoint& from,
+[[nodiscard]] scene::Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from,
                                      light::Random& random);
 
 /// What the noise of a path-traced film amounts to in its picture: root mean square over all pixels of the stated standard error, in steps

@@ -3,9 +3,8 @@
 #include "compiler/render/shade.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "compiler/light/shade.h"
+#include "compiler/light/leg.h"
 #include "compiler/render/path.h"
 
 namespace orbc::render {
@@ -15,20 +14,6 @@ using scene::Color;
 using trace::Direction;
 
 constexpr double kLeastShare = 1.0 / 512;  // a branch of glass below it cannot change an 8-bit picture
-
-// Share of light that a boundary of relative index `eta` (to / from) reflects, and the cosine of the refracted ray; 1 at total reflection.
-double fresnel(double cosine, double eta, double& refracted) {
-  const double sine2 = (1 - cosine * cosine) / (eta * eta);
-  if (sine2 >= 1) return 1;
-  refracted = std::sqrt(1 - sine2);
-  const double parallel = (eta * cosine - refracted) / (eta * cosine + refracted);
-  const double across = (cosine - eta * refracted) / (cosine + eta * refracted);
-  return (parallel * parallel + across * across) / 2;
-}
-
-double cosine_at(const trace::TraceScene& scene, const trace::SurfacePoint& point) {
-  return std::clamp(-trace::inner(scene.room->room.space, point.arriving, point.normal), 0.0, 1.0);
-}
 
 Color at_most(const Color& c, double most) { return {std::min(c.r, most), std::min(c.g, most), std::min(c.b, most)}; }
 
@@ -64,7 +49,7 @@ struct Walker {
     out = at_most(out, white);
     if (field.options.passes == 0) return add(weight * out);
     // What a guess lifts beyond white must not be cut off guess by guess: their mean would become too dark.
-    const Color more = color * passed_on(*scene.room, options, at, random);
+    const Color more = color * passed_on(*scene.room, field, at, random);
     const Color kept{out.r < white ? more.r : 0, out.g < white ? more.g : 0, out.b < white ? more.b : 0};
     seen.radiance = seen.radiance + weight * (out + kept);
     seen.passed_on = seen.passed_on + weight * kept;
@@ -86,10 +71,10 @@ struct Walker {
       if (options.light) return lit(path, point, *material, color, share);
       return add(share * (path.weight * color));
     }
-    if (mirror) return go_on(path, point, mirrored(scene, point), path.weight * color, share, depth);
-    const Refraction through = refracted(scene, point, material->index);
+    if (mirror) return go_on(path, point, light::mirrored(scene, point), path.weight * color, share, depth);
+    const light::Refraction through = light::refracted(scene, point, material->index);
     const double back = share * through.reflectance, on = share * (1 - through.reflectance);
-    if (back >= kLeastShare) go_on(path, point, mirrored(scene, point), path.weight, back, depth);
+    if (back >= kLeastShare) go_on(path, point, light::mirrored(scene, point), path.weight, back, depth);
     if (on < kLeastShare) return;
     trace::SurfacePoint behind = point;
     behind.normal = -point.normal;
@@ -99,28 +84,7 @@ struct Walker {
 
 }  // namespace
 
-Direction mirrored(const trace::TraceScene& scene, const trace::SurfacePoint& point) {
-  return point.arriving + (2 * cosine_at(scene, point)) * point.normal;
-}
-
-Refraction refracted(const trace::TraceScene& scene, const trace::SurfacePoint& point, double index) {
-  const double eta = point.outside ? index : 1 / index, cosine = cosine_at(scene, point);
-  double onward = 0;
-  Refraction result;
-  result.reflectance = fresnel(cosine, eta, onward);
-  result.direction = (1 / eta) * point.arriving + (cosine / eta - onward) * point.normal;
-  return result;
-}
-
-Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point) {
-  light::SurfaceKey key;
-  key.look = point.look, key.color = point.color;
-  key.uv[0] = point.uv[0], key.uv[1] = point.uv[1];
-  const place::PlacedMesh* part = point.part >= 0 ? &room.parts[static_cast<std::size_t>(point.part)] : nullptr;
-  key.solid = part && !part->pattern_position.empty();
-  key.pattern_position = point.pattern_position;
-  return light::surface_albedo(room, key);
-}
+Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point) { return light::surface_color(room, point); }
 
 trace::FollowOptions follow_options(const DrawOptions& options) {
   trace::FollowOptions follow;

@@ -26,7 +26,7 @@ std::unique_ptr<Lit> lit(const scene::Scene& scene, int passes, int mirrors = 2)
   result->scene = scene;
   result->room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
   light::LightOptions options;
-  options.bounces = mirrors, options.passes = passes, options.cut = 0;
+  options.bounces = mirrors, options.passes = passes, options.cut = 0, options.leg_bounces = 400;
   result->field = light::prepare_light(result->scene, result->room, options).value();
   result->traced = trace::prepare(result->room);
   return result;
@@ -162,7 +162,7 @@ TEST_CASE("the stated error of a path-traced film is the spread between seeds, a
   const auto draw = [&](std::uint64_t seed, const Executor& executor) {
     l->field.options.seed = seed;
     render::DrawOptions options = drawing(*l, 16);
-    options.max_bounces = 6;
+    options.max_bounces = l->field.options.leg_bounces = 6;
     return render::draw(l->traced, eye_in(l->room, 32, 24), options, executor);
   };
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) { for (std::size_t i = count; i-- > 0;) task(i); };

@@ -1,0 +1,239 @@
+#include "compiler/light/passing.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/light/guide.h"
+#include "compiler/light/leg.h"
+#include "compiler/light/surface_map.h"
+#include "compiler/light/way.h"
+
+namespace orbc::light {
+namespace {
+
+using scene::Color;
+
+constexpr int kLinked = 4;          // of so many directions one carries on what has been passed on: that is smoother than what lamps give
+constexpr int kMostPoints = 33;     // along a side of a block
+constexpr double kSettled = 2e-4;   // of white: change at which the iteration ends
+
+/// Where a direction of a point ends.
+struct Link {
+  OnBlock to;
+  std::array<float, 3> weight{};    ///< of what the surface there has been passed
+};
+struct Node {
+  LightPoint at;
+  Color given;                      ///< from surfaces under their lamps, from those that glow, from the background
+  Color passed;                     ///< all that surfaces pass on to it
+  bool blind = false;               ///< sees the inside of things
+  std::size_t first = 0, count = 0; ///< links
+};
+
+double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
+
+// The k-th point of the unit cube: Roberts' lattice of the number that solves x⁴ = x + 1.
+std::array<double, 3> lattice(int k) {
+  constexpr double kG = 1.22074408460575947536;
+  const auto at = [&](double step) { const double v = 0.5 + (k + 1) * step; return v - std::floor(v); };
+  return {at(1 / kG), at(1 / (kG * kG)), at(1 / (kG * kG * kG))};
+}
+
+int points_on(double length, double density) { return std::clamp(static_cast<int>(std::ceil(length * density - 1e-9)), 1, kMostPoints - 1) + 1; }
+
+/// The net: vertices of the parts, and points inside the blocks.
+class Net {
+ public:
+  Net(const LitSurfaces& surfaces, const PassOptions& options) : s_(surfaces), options_(options), map_(surfaces.room, surfaces.blocks) {
+    for (std::size_t p = 0; p < s_.room.parts.size(); ++p) {
+      const PartNormals& normals = *s_.normals[p];
+      const std::size_t vertices = nodes_.size();
+      for (const ShadingVertex& v : normals.vertices) nodes_.push_back({light_point(s_.room, s_.room.parts[p], v), {}, {}, false, 0, 0});
+      for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices);
+    }
+  }
+
+  void gather(const Executor& executor, const Progress& progress) {
+    constexpr std::size_t kChunk = 16;
+    const std::size_t chunks = (nodes_.size() + kChunk - 1) / kChunk;
+    std::vector<std::vector<Link>> links(chunks);
+    std::atomic<std::uint64_t> done{0};
+    executor(chunks, [&](std::size_t c) {
+      for (std::size_t i = c * kChunk; i < std::min(nodes_.size(), (c + 1) * kChunk); ++i) ask(nodes_[i], i, links[c]);
+      report(progress, "passing light on", done.fetch_add(kChunk), nodes_.size(), "points");
+    });
+    for (std::size_t c = 0; c < chunks; ++c) {
+      for (std::size_t i = c * kChunk; i < std::min(nodes_.size(), (c + 1) * kChunk); ++i) nodes_[i].first += links_.size();
+      links_.insert(links_.end(), links[c].begin(), links[c].end());
+      std::vector<Link>().swap(links[c]);
+    }
+  }
+
+  void settle(const Executor& executor) {
+    for (Node& node : nodes_) node.passed = node.given;
+    spread_to_blind();
+    constexpr std::size_t kChunk = 256;
+    const double enough = kSettled / std::max(s_.field.exposure, 1e-300);
+    for (int pass = 1; pass < s_.field.options.passes; ++pass) {
+      const std::vector<LightGrid> before = grids();
+      std::vector<Color> next(nodes_.size());
+      executor((nodes_.size() + kChunk - 1) / kChunk, [&](std::size_t c) {
+        for (std::size_t i = c * kChunk; i < std::min(nodes_.size(), (c + 1) * kChunk); ++i) next[i] = carried(nodes_[i], before);
+      });
+      double change = 0;
+      for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        change = std::max(change, largest(next[i] + -1.0 * nodes_[i].passed) * !nodes_[i].blind);
+        nodes_[i].passed = next[i];
+      }
+      spread_to_blind();
+      if (change < enough) break;
+    }
+  }
+
+  [[nodiscard]] std::vector<LightGrid> grids() const {
+    std::vector<LightGrid> all;
+    for (const Mesh& mesh : meshes_) {
+      LightGrid& grid = all.emplace_back();
+      grid.w = mesh.w, grid.h = mesh.h;
+      grid.light.resize(mesh.node.size());
+      for (std::size_t k = 0; k < mesh.node.size(); ++k) {
+        if (mesh.node[k] < 0) continue;
+        const Color& c = nodes_[static_cast<std::size_t>(mesh.node[k])].passed;
+        grid.light[k] = {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+      }
+      // Beyond the long side of a single triangle its light is continued.
+      for (int j = 0; j < mesh.h; ++j)
+        for (int i = 0; i < mesh.w; ++i) {
+          if (mesh.node[static_cast<std::size_t>(j * mesh.w + i)] >= 0) continue;
+          for (std::size_t c = 0; c < 3; ++c)
+            grid.point(i, j)[c] = std::max(0.0f, grid.point(i - 1, j)[c] + grid.point(i, j - 1)[c] - grid.point(i - 1, j - 1)[c]);
+        }
+    }
+    return all;
+  }
+
+ private:
+  /// The nodes of a block, row by row; −1 beyond the long side of a single triangle.
+  struct Mesh {
+    int w = 2, h = 2;
+    std::vector<std::int32_t> node;
+  };
+
+  void add_block(const place::PlacedMesh& part, const PartNormals& normals, const Block& block, std::size_t vertices) {
+    Mesh mesh;
+    mesh.w = points_on(block.length_u, options_.density), mesh.h = points_on(block.length_v, options_.density);
+    if (block.second < 0) mesh.w = mesh.h = std::max(mesh.w, mesh.h);
+    for (int j = 0; j < mesh.h; ++j)
+      for (int i = 0; i < mesh.w; ++i) {
+        const bool far_u = i == mesh.w - 1, far_v = j == mesh.h - 1;
+        if (block.second < 0 && i + j > mesh.w - 1) {
+          mesh.node.push_back(-1);
+        } else if ((i == 0 || far_u) && (j == 0 || far_v)) {
+          const std::size_t t = far_u && far_v ? static_cast<std::size_t>(block.second) : block.first;
+          const int k = far_u && far_v ? block.second_turn[0] : block.turn[far_u ? 1 : far_v ? 2 : 0];
+          mesh.node.push_back(static_cast<std::int32_t>(vertices + normals.corners[t][static_cast<std::size_t>(k)]));
+        } else {
+          const InTriangle at = in_triangle(block, static_cast<double>(i) / (mesh.w - 1), static_cast<double>(j) / (mesh.h - 1));
+          mesh.node.push_back(static_cast<std::int32_t>(nodes_.size()));
+          nodes_.push_back({light_point(s_.room, part, normals, at.triangle, at.b), {}, {}, false, 0, 0});
+        }
+      }
+    meshes_.push_back(std::move(mesh));
+  }
+
+  // Sends a node's directions out; its links start at node.first of `links`.
+  void ask(Node& node, std::size_t id, std::vector<Link>& links) const {
+    const LightField& field = s_.field;
+    const Guide guide = guide_at(field, node.at);
+    std::vector<trace::Ray> rays;
+    std::vector<double> weights;
+    std::vector<bool> linked;
+    for (int k = 0; k < options_.samples; ++k) {
+      const Chosen chosen = choose(guide, lattice(k));
+      if (chosen.weight <= 0) continue;
+      rays.push_back(leaving(field, node.at, chosen.direction));
+      weights.push_back(chosen.weight / options_.samples);
+      linked.push_back(k % kLinked == 0);
+    }
+    node.first = links.size();
+    Random random(id);
+    std::vector<trace::Path> paths = trace::follow(field.scene, rays, Leg{s_.room, field, random, {}, {}, {}, {}}.follow_options());
+    int inside = 0;
+    const double carry = static_cast<double>(options_.samples) / ((options_.samples + kLinked - 1) / kLinked);
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      Leg leg{s_.room, field, random, {}, {weights[k], weights[k], weights[k]}, {}, {}};
+      const bool ends = leg.arrive(std::move(paths[k]));
+      node.given = node.given + leg.sum;
+      inside += ends && !leg.point.outside;
+      if (!ends) continue;
+      const OnBlock to = map_.find(leg.point, leg.hit);
+      const Color weight = leg.weight * surface_color(s_.room, leg.point);
+      Color shown = field.ambient;
+      if (to.block >= 0) shown = shown + (1 / std::numbers::pi) * light_at(s_.direct[static_cast<std::size_t>(to.block)], to.u, to.v);
+      node.given = node.given + weight * shown;
+      if (to.block < 0 || !linked[k]) continue;
+      links.push_back({to, {static_cast<float>(carry * weight.r), static_cast<float>(carry * weight.g), static_cast<float>(carry * weight.b)}});
+    }
+    node.count = links.size() - node.first;
+    node.blind = 2 * inside > static_cast<int>(paths.size());
+  }
+
+  Color carried(const Node& node, const std::vector<LightGrid>& passed) const {
+    Color sum = node.given;
+    for (std::size_t k = node.first; k < node.first + node.count; ++k) {
+      const Link& link = links_[k];
+      const Color c = light_at(passed[static_cast<std::size_t>(link.to.block)], link.to.u, link.to.v);
+      sum = sum + Color{link.weight[0] * c.r, link.weight[1] * c.g, link.weight[2] * c.b};
+    }
+    return sum;
+  }
+
+  // From the nodes of the same blocks that see the room, ring by ring.
+  void spread_to_blind() {
+    std::vector<std::uint8_t> blind(nodes_.size());
+    bool any = false;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) blind[i] = nodes_[i].blind, any = any || nodes_[i].blind;
+    for (int ring = 0; ring < 64 && any; ++ring) {
+      std::vector<Color> sum(nodes_.size());
+      std::vector<int> count(nodes_.size(), 0);
+      for (const Mesh& mesh : meshes_) {
+        Color seen;
+        int n = 0;
+        for (const std::int32_t node : mesh.node)
+          if (node >= 0 && !blind[static_cast<std::size_t>(node)]) seen = seen + nodes_[static_cast<std::size_t>(node)].passed, ++n;
+        if (n == 0) continue;
+        for (const std::int32_t node : mesh.node)
+          if (node >= 0 && blind[static_cast<std::size_t>(node)]) sum[static_cast<std::size_t>(node)] = sum[static_cast<std::size_t>(node)] + (1.0 / n) * seen, ++count[static_cast<std::size_t>(node)];
+      }
+      any = false;
+      bool moved = false;
+      for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (!blind[i]) continue;
+        if (count[i] == 0) { any = true; continue; }
+        nodes_[i].passed = (1.0 / count[i]) * sum[i];
+        blind[i] = 0, moved = true;
+      }
+      if (!moved) break;
+    }
+  }
+
+  const LitSurfaces& s_;
+  const PassOptions& options_;
+  SurfaceMap map_;
+  std::vector<Node> nodes_;
+  std::vector<Mesh> meshes_;        ///< per block
+  std::vector<Link> links_;
+};
+
+}  // namespace
+
+std::vector<LightGrid> pass_on(const LitSurfaces& surfaces, const PassOptions& options, const Executor& executor, const Progress& progress) {
+  Net net(surfaces, options);
+  net.gather(executor, progress);
+  net.settle(executor);
+  return net.grids();
+}
+
+}  // namespace orbc::light

@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "compiler/light/blocks.h"
+#include "compiler/trace/follow.h"
+
+namespace orbc::light {
+
+/// A place on a block.
+struct OnBlock {
+  int block = -1;                   ///< of all blocks of the room, in the order of its parts; −1: no block there
+  float u = 0, v = 0;
+};
+
+/// Finds the block on which a ray has ended. Floor, ceiling and walls are met by formula, so their triangles are looked up here.
+class SurfaceMap {
+ public:
+  /// In: the blocks of every part.
+  SurfaceMap(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks);
+  [[nodiscard]] OnBlock find(const trace::SurfacePoint& point, const trace::Hit& hit) const;
+
+ private:
+  /// The triangles of a flat part of the room over a grid of cells of two coordinates, in which they are straight.
+  struct Chart {
+    double low[2] = {0, 0}, size[2] = {1, 1};
+    int cells = 1;
+    std::vector<std::vector<std::uint32_t>> triangles;  ///< per cell
+  };
+  [[nodiscard]] std::array<double, 2> flat(const place::PlacedMesh& part, const geometry::Point& at, double z) const;
+  [[nodiscard]] Chart chart_of(const place::PlacedMesh& part) const;
+  [[nodiscard]] OnBlock on_triangle(std::size_t part, std::size_t triangle, const std::array<double, 3>& b) const;
+  [[nodiscard]] OnBlock on_flat(std::size_t part, const trace::SurfacePoint& point) const;
+
+  const place::PlacedRoom& room_;
+  std::vector<std::vector<std::uint32_t>> block_of_;    ///< [part][triangle], of all blocks
+  std::vector<const Block*> blocks_;
+  std::vector<Chart> charts_;       ///< per part; empty for objects and frames
+  std::vector<std::vector<std::size_t>> flats_;         ///< parts of floor, ceiling, wall 0, wall 1, …
+};
+
+}  // namespace orbc::light

@@ -1,0 +1,75 @@
+// Baked light by quality, and shadow rays against camera rays of the same room: ratios of one process.
+#include <benchmark/benchmark.h>
+
+#include "compiler/driver/open.h"
+#include "compiler/light/bake.h"
+#include "compiler/render/draw.h"
+#include "compiler/trace/follow.h"
+
+using namespace orbc;
+
+namespace {
+
+const driver::Opened& opened() {
+  static const driver::Opened scene = driver::open_scene(ORBC_SOURCE_DIR "/tests/bench/lit.yaml").value();
+  return scene;
+}
+
+void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator integrator) {
+  scene::Scene scene = opened().scene;
+  scene.bake.quality = quality;
+  scene.integrator = integrator;
+  const light::LightField field = light::prepare_light(scene, *opened().room, light::baked_light_options(scene)).value();
+  double points = 0, texels = 0;
+  for (auto _ : state) {
+    const light::Baked baked = light::bake(*opened().room, field, light::bake_options(scene.bake), serial_executor()).value();
+    points = static_cast<double>(baked.counts.points), texels = static_cast<double>(baked.counts.texels);
+  }
+  state.counters["points"] = points, state.counters["texels"] = texels, state.counters["images"] = static_cast<double>(field.images.size());
+}
+
+// Rays of a small picture, followed through the mirrors: what a stream of camera rays takes a piece.
+std::vector<trace::Ray> camera_rays() {
+  place::Eye eye = opened().eye;
+  eye.width = 320, eye.height = 240;
+  std::vector<trace::Ray> rays;
+  for (int y = 0; y < eye.height; ++y)
+    for (int x = 0; x < eye.width; ++x) rays.push_back(render::eye_ray(eye, x + 0.5, y + 0.5));
+  return rays;
+}
+
+void camera(benchmark::State& state) {
+  const trace::TraceScene scene = trace::prepare(*opened().room);
+  const std::vector<trace::Ray> rays = camera_rays();
+  for (auto _ : state)
+    for (const trace::Ray& ray : rays) benchmark::DoNotOptimize(trace::closest(scene, ray));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
+}
+
+void shadow(benchmark::State& state) {
+  const trace::TraceScene scene = trace::prepare(*opened().room);
+  std::vector<trace::Ray> rays;
+  std::vector<double> lengths;
+  const light::LightField field = light::prepare_light(opened().scene, *opened().room).value();
+  for (const trace::Ray& ray : camera_rays()) {
+    const trace::Hit hit = trace::closest(scene, ray);
+    const geometry::Position at = trace::position_at(scene.prism.space, ray, hit.t);
+    const trace::Segment way = trace::segment_between(scene.prism.space, at, field.lamps.front().centre);
+    rays.push_back(way.ray);
+    rays.back().t_min = trace::kLeave;
+    lengths.push_back(way.length);
+  }
+  for (auto _ : state)
+    for (std::size_t i = 0; i < rays.size(); ++i) benchmark::DoNotOptimize(trace::occluded(field.scene, rays[i], lengths[i]));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
+}
+
+}  // namespace
+
+BENCHMARK_CAPTURE(bake, draft, scene::BakeQuality::draft, scene::Integrator::direct)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK_CAPTURE(bake, normal, scene::BakeQuality::normal, scene::Integrator::direct)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK_CAPTURE(bake, normal_path, scene::BakeQuality::normal, scene::Integrator::path)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(camera);
+BENCHMARK(shadow);
+
+BENCHMARK_MAIN();
