@@ -11,6 +11,7 @@
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace.h"
 #include "compiler/mesh/image.h"
+#include "compiler/render/path.h"
 
 namespace orbc::cli {
 namespace {
@@ -80,6 +81,12 @@ render::Pass pass_of(const std::string& name) {
   return render::Pass::color;
 }
 
+// What chance has left in a path-traced picture.
+std::string noise_text(const render::Film& film, double exposure) {
+  if (film.error.empty()) return "";
+  return fmt::format("; noise {:.1f}/255, less with more --samples", render::noise_of(film, exposure));
+}
+
 int render_here(const RenderArguments& a, const Common& common) {
   const auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;
@@ -89,7 +96,7 @@ int render_here(const RenderArguments& a, const Common& common) {
   const bool exr = ends_with(a.compile.output, ".exr");
   write_output(a.compile.output, exr ? render::to_exr(film) : mesh::encode_png(render::to_image(film, pass_of(a.pass), opened->scene.exposure)));
   bar.clear();
-  if (!common.quiet) fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced\n", a.compile.output, film.width, film.height, a.samples);
+  if (!common.quiet) fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", a.compile.output, film.width, film.height, a.samples, noise_text(film, opened->scene.exposure));
   return kDone;
 }
 

@@ -31,9 +31,12 @@ void add_scene(CLI::App& command, SceneArguments& scene) {
   command.add_option("--size", scene.size, "Picture size instead of the scene's")->type_name("WxH");
   command.add_option("--max-bounces", scene.max_bounces, "Mirrors a ray may meet, instead of the scene's")->check(CLI::Range(0, 1000))->type_name("N");
   command.add_option("--projection", scene.projection, "Camera instead of the scene's")->check(CLI::IsMember({"perspective", "panorama", "cylinder"}))->type_name("NAME");
+  command.add_option("--integrator", scene.integrator, "Light of lamps alone (direct), or also what surfaces pass on to each other (path), instead of the scene's")
+      ->check(CLI::IsMember({"direct", "path"}))->type_name("NAME");
 }
 
 void add_compile_options(CLI::App& command, CompileArguments& a) {
+  command.add_option("--quality", a.scene.quality, "How finely light is baked, instead of the scene's: draft, normal or fine")->check(CLI::IsMember({"draft", "normal", "fine"}))->type_name("NAME");
   command.add_option("--tolerance", a.tolerance, "Largest error of a bent edge, in pixels of the picture")->capture_default_str()->check(CLI::Range(1e-4, 1e4))->type_name("PX");
   command.add_option("--max-triangles", a.max_triangles, "Refuse to make more triangles than this")->capture_default_str()->type_name("N");
   command.add_flag("--no-lod", a.no_lod, "Draw far copies in all detail, too");

@@ -74,6 +74,11 @@ driver::Overrides overrides_of(const SceneArguments& arguments) {
   if (arguments.projection == "perspective") overrides.projection = scene::Projection::perspective;
   if (arguments.projection == "panorama") overrides.projection = scene::Projection::panorama;
   if (arguments.projection == "cylinder") overrides.projection = scene::Projection::cylinder;
+  if (arguments.integrator == "direct") overrides.integrator = scene::Integrator::direct;
+  if (arguments.integrator == "path") overrides.integrator = scene::Integrator::path;
+  if (arguments.quality == "draft") overrides.quality = scene::BakeQuality::draft;
+  if (arguments.quality == "normal") overrides.quality = scene::BakeQuality::normal;
+  if (arguments.quality == "fine") overrides.quality = scene::BakeQuality::fine;
   return overrides;
 }
 

@@ -25,6 +25,8 @@ void apply(const Overrides& overrides, scene::Scene& scene) {
   if (overrides.size) scene.camera.size = *overrides.size;
   if (overrides.max_bounces) scene.cover.max_bounces = *overrides.max_bounces;
   if (overrides.projection) scene.camera.projection = *overrides.projection;
+  if (overrides.integrator) scene.integrator = *overrides.integrator;
+  if (overrides.quality) scene.bake.quality = *overrides.quality;
 }
 
 void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from.begin(), from.end()); }

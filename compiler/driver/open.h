@@ -16,6 +16,8 @@ struct Overrides {
   std::optional<std::array<int, 2>> size;
   std::optional<int> max_bounces;
   std::optional<scene::Projection> projection;
+  std::optional<scene::Integrator> integrator;
+  std::optional<scene::BakeQuality> quality;
 };
 
 /// A scene that has been read, realised, furnished and looked at: where both roads begin.
