@@ -90,7 +90,7 @@ int compile(const CompileArguments& a, const Common& common) {
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const Executor executor = driver::parallel_executor(common.threads);
   if (a.plan) {
-    const auto plan = driver::plan(*opened, options);
+    const auto plan = driver::plan(*opened, options, executor);
     if (!plan) return print(plan.error(), common), kSceneWrong;
     write_output("-", driver::plan_json(*plan));
     return kDone;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
+#include "compiler/cover/beam.h"
 #include "compiler/cover/plan.h"
 #include "compiler/cover/unfold.h"
+#include "compiler/driver/estimate.h"
 #include "compiler/driver/levels.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/light/atlas.h"
@@ -35,11 +39,12 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
 }
 
 /// Plain colours, or, in a scene with lamps, the light of the room. In: the room with its levels of detail, which cast no shadows.
-Result<light::Atlas> make_atlas(const Opened& opened, const place::PlacedRoom& room, const Executor& executor, const Progress& progress) {
+Result<light::Atlas> make_atlas(const Opened& opened, const place::PlacedRoom& room, const light::BakeOptions& baking, const Executor& executor,
+                                const Progress& progress) {
   if (!light::needs_bake(opened.scene, *opened.room)) return light::make_atlas(room);
-  const auto field = light::prepare_light(opened.scene, *opened.room, light::light_options(opened.scene), executor);
+  const auto field = light::prepare_light(opened.scene, *opened.room, light::baked_light_options(opened.scene), executor);
   if (!field) return field.error();
-  auto baked = light::bake(room, *field, {}, executor, progress);
+  auto baked = light::bake(room, *field, baking, executor, progress);
   if (!baked) return baked.error();
   return std::move(baked->atlas);
 }
@@ -57,35 +62,92 @@ std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock
   return models;
 }
 
+/// Why a scene cannot be compiled at all.
+std::optional<Diagnostic> refusal(const Opened& opened, const CompileOptions& options, const std::vector<cover::Copy>& copies) {
+  if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(), [](const place::PlacedMirror& m) { return !(m.glow == scene::Color{}); })) {
+    return make_error("driver.glowing-mirror", "a mirror that glows adds light to all that is seen in it: exports can only multiply",
+                      "leave out `glow`, or draw the scene with the tracer (`orbc trace`)");
+  }
+  if (options.bend.view == bend::View::disk && std::any_of(copies.begin(), copies.end(), [](const cover::Copy& c) { return !c.sills.empty(); })) {
+    return make_error("cover.stacked-mirrors", "the mirrors above each other that differ show their copies to one eye: --view disk has none",
+                      "give them the same reflectance and tint, or leave out --view disk");
+  }
+  return std::nullopt;
+}
+
+/// The copies, once. Each takes at least its bytes.
+Result<std::vector<cover::Copy>> unfolded(const Opened& opened, const CompileOptions& options, const Progress& progress) {
+  if (!cover::needs_beams(*opened.room)) {
+    const auto planned = cover::plan(*opened.room, opened.eye, opened.scene.cover, {options.max_memory / 2, false});
+    if (!planned) return planned.error();
+  }
+  const auto most = static_cast<std::uint64_t>(static_cast<double>(options.max_memory / 2) / cover::kBytesPerCopy);
+  return cover::unfold(*opened.room, opened.eye, opened.scene.cover, {std::min(most, cover::UnfoldOptions().max_copies), progress});
+}
+
+/// All that bending needs.
+struct Ready {
+  std::vector<cover::Copy> copies;
+  Levels levels;
+  Choice choice;
+  light::Atlas atlas;
+  std::vector<bend::Model> models;
+  bend::BendOptions bending;
+  bool baked = false;
+};
+
+Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOptions& options, const light::BakeOptions& baking, const Executor& executor,
+                                         const Progress& progress) {
+  auto ready = std::make_unique<Ready>();   // models point into it
+  report(progress, "unfolding", 0, 0);
+  if (const auto no = refusal(opened, options, {})) return *no;
+  auto copies = unfolded(opened, options, progress);
+  if (!copies) return copies.error();
+  if (const auto no = refusal(opened, options, *copies)) return *no;
+  ready->copies = std::move(copies).value();
+  const bool with_levels = options.levels && options.bend.view == bend::View::eye;
+  report(progress, "levels of detail", 0, 0);
+  if (with_levels) ready->levels = make_levels(*opened.room, executor);
+  ready->choice = with_levels ? choose_levels(*opened.room, ready->levels, ready->copies, opened.eye, options.bend) : no_levels(*opened.room, ready->copies.size());
+  const Stock stock = stock_of(*opened.room, ready->levels, ready->choice);
+  report(progress, "atlas", 0, 0);
+  auto atlas = make_atlas(opened, stock.room, baking, executor, progress);
+  if (!atlas) return atlas.error();
+  ready->atlas = std::move(atlas).value();
+  ready->models = models_of(ready->atlas, stock, ready->choice);
+  ready->baked = light::needs_bake(opened.scene, *opened.room);
+  ready->bending = options.bend;
+  ready->bending.colours_vary = options.bend.colours_vary || ready->baked;
+  return ready;
+}
+
+Result<cover::Plan> estimated(const Opened& opened, const CompileOptions& options, const Ready& ready, const Executor& executor) {
+  const auto bend_some = [&](const std::vector<std::size_t>& which) {
+    std::vector<cover::Copy> copies;
+    std::vector<std::uint32_t> models;
+    for (const std::size_t i : which) {
+      copies.push_back(ready.copies[i]);
+      if (!ready.choice.model_of_copy.empty()) models.push_back(ready.choice.model_of_copy[i]);
+    }
+    return bend::bend(ready.atlas.room, ready.models, models, copies, opened.eye, ready.bending, executor);
+  };
+  return estimate(*opened.room, opened.eye, ready.copies, opened.scene.cover.max_bounces, options.max_memory / 2, bend_some);
+}
+
+/// Whether the copies may take more than is allowed; splitting multiplies their triangles, but not by this.
+bool may_exceed(const Opened& opened, const CompileOptions& options, const Ready& ready) {
+  return cover::plan_of(ready.copies, *opened.room).bytes > options.max_memory / 64;
+}
+
 }  // namespace
 
 Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
-  if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(), [](const place::PlacedMirror& m) { return !(m.glow == scene::Color{}); })) {
-    return located({make_error("driver.glowing-mirror", "a mirror that glows adds light to all that is seen in it: exports can only multiply",
-                               "leave out `glow`, or draw the scene with the tracer (`orbc trace`)")},
-                   opened.scene.span);
-  }
-  report(progress, "unfolding", 0, 0);
-  if (const auto planned = plan(opened, options); !planned) return planned.error();
-  const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover, {.progress = progress});
-  if (!copies) return located(copies.error(), opened.scene.span);
-  if (options.bend.view == bend::View::disk && std::any_of(copies->begin(), copies->end(), [](const cover::Copy& c) { return !c.sills.empty(); })) {
-    return located({make_error("cover.stacked-mirrors", "the mirrors above each other that differ show their copies to one eye: --view disk has none",
-                               "give them the same reflectance and tint, or leave out --view disk")},
-                   opened.scene.span);
-  }
-  const bool with_levels = options.levels && options.bend.view == bend::View::eye;
-  report(progress, "levels of detail", 0, 0);
-  const Levels levels = with_levels ? make_levels(*opened.room, executor) : Levels{};
-  const Choice choice = with_levels ? choose_levels(*opened.room, levels, *copies, opened.eye, options.bend) : no_levels(*opened.room, copies->size());
-  const Stock stock = stock_of(*opened.room, levels, choice);
-  report(progress, "atlas", 0, 0);
-  auto atlas = make_atlas(opened, stock.room, executor, progress);
-  if (!atlas) return located(atlas.error(), opened.scene.span);
-  bend::BendOptions bending = options.bend;
-  const bool baked = light::needs_bake(opened.scene, *opened.room);
-  bending.colours_vary = bending.colours_vary || baked;
-  auto bent = bend::bend(atlas->room, models_of(*atlas, stock, choice), choice.model_of_copy, *copies, opened.eye, bending, executor, progress);
+  auto prepared = get_ready(opened, options, light::bake_options(opened.scene.bake), executor, progress);
+  if (!prepared) return located(prepared.error(), opened.scene.span);
+  Ready& ready = **prepared;
+  if (may_exceed(opened, options, ready))
+    if (const auto planned = estimated(opened, options, ready, executor); !planned) return located(planned.error(), opened.scene.span);
+  auto bent = bend::bend(ready.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending, executor, progress);
   if (!bent) return located(bent.error(), opened.scene.span);
 
   Compiled compiled;
@@ -93,9 +155,9 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   product.title = notation::to_text(opened.scene.orbifold);
   product.eye = opened.eye;
   product.background = opened.scene.cover.background;
-  product.atlas = std::move(atlas->image);
-  product.blended_atlas = baked;
-  product.copies = drawn(*copies, bent->copies, opened.eye);
+  product.atlas = std::move(ready.atlas.image);
+  product.blended_atlas = ready.baked;
+  product.copies = drawn(ready.copies, bent->copies, opened.eye);
   product.positions = std::move(bent->positions);
   product.uv = std::move(bent->uv);
   product.indices = std::move(bent->indices);
@@ -103,13 +165,19 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
 
   Report& r = compiled.report;
   r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
-  r.error_bound_px = bent->error_bound_px + choice.error_px;
+  r.error_bound_px = bent->error_bound_px + ready.choice.error_px;
   for (const DrawnCopy& copy : product.copies) r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
   return compiled;
 }
 
-Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options) {
-  auto planned = cover::plan(*opened.room, opened.eye, opened.scene.cover, {options.max_memory});
+Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor) {
+  // How fine the light is does not change what it is put on.
+  light::BakeOptions coarse;
+  coarse.coarse = coarse.fine = coarse.texture_fine = 0.01;
+  coarse.passing = {1, 0.01};
+  const auto ready = get_ready(opened, options, coarse, executor, {});
+  if (!ready) return located(ready.error(), opened.scene.span);
+  auto planned = estimated(opened, options, **ready, executor);
   if (!planned) return located(planned.error(), opened.scene.span);
   return planned;
 }

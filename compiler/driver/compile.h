@@ -11,7 +11,7 @@ namespace orbc::driver {
 struct CompileOptions {
   bend::BendOptions bend;
   bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within the tolerance as well
-  std::uint64_t max_memory = std::uint64_t{4} << 30;
+  std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< half of it for the product, half for the file that is made of it
 };
 
 /// What was made, in numbers; for report.json and the summary.
@@ -26,13 +26,13 @@ struct Compiled {
   Report report;
 };
 
-/// unfold → plan → atlas → bend: the upper road of compiler/README.md.
+/// unfold → levels → atlas → plan → bend: the upper road of compiler/README.md.
 /// Makes:       the same product for any executor.
 /// Diagnostics: those of cover, light and bend.
 [[nodiscard]] Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress = {});
 
-/// What compiling would make, and whether it fits into the memory allowed.
-[[nodiscard]] Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options);
+/// What compiling would make, within 20 % (copies exactly), and whether it fits into the memory allowed. Goes as far as bending some of the copies.
+[[nodiscard]] Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor = serial_executor());
 [[nodiscard]] std::string plan_json(const cover::Plan& plan);
 
 /// The flat picture of the tiling, without eye or meshes.

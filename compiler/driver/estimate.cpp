@@ -10,17 +10,16 @@
 namespace orbc::driver {
 namespace {
 
-constexpr std::size_t kFewest = 64, kMost = 2048;   // copies to be bent
-constexpr std::uint64_t kTriangles = 4'000'000;     // of the room, in all of them
+constexpr std::size_t kFewest = 128, kMost = 2048;   // copies to be bent
 
 double bytes_of(double vertices, double triangles) { return cover::kBytesPerVertex * vertices + cover::kBytesPerTriangle * triangles; }
 
 }  // namespace
 
 Result<cover::Plan> estimate(const place::PlacedRoom& room, const place::Eye& eye, const std::vector<cover::Copy>& copies, int max_bounces, std::uint64_t max_bytes,
-                             const BendSome& bend_some) {
+                             const BendSome& bend_some, std::uint64_t most_triangles) {
   cover::Plan plan = cover::plan_of(copies, room);
-  const std::size_t most = std::clamp<std::size_t>(kTriangles / std::max<std::uint64_t>(1, plan.room_triangles), kFewest, kMost);
+  const std::size_t most = std::clamp<std::size_t>(most_triangles / std::max<std::uint64_t>(1, plan.room_triangles), kFewest, kMost);
   const std::vector<cover::Sample> samples = cover::sample_of(copies, room, eye, most);
   std::vector<std::size_t> which;
   for (const cover::Sample& sample : samples) which.push_back(sample.copy);
