@@ -45,7 +45,8 @@ Result<cover::Plan> estimate(const place::PlacedRoom& room, const place::Eye& ey
   }
   plan.bytes = static_cast<std::uint64_t>(std::llround(sum));
   if (sum > static_cast<double>(max_bytes)) {
-    return make_error("cover.too-much", fmt::format("max_bounces: {} needs about {} MiB, {} MiB are allowed", max_bounces, plan.bytes >> 20, max_bytes >> 20),
+    return make_error("cover.too-much", fmt::format("max_bounces: {} needs about {} MiB, as much again for the file that is made of it, and {} MiB are allowed", max_bounces,
+                                  (plan.bytes >> 20) + 1, max_bytes >> 19),
                       fits < 0 ? std::string("not even the room itself fits: use coarser meshes or allow more memory") : fmt::format("max_bounces: {} fits", fits));
   }
   return plan;
