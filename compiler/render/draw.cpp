@@ -51,17 +51,26 @@ struct Sums {
   }
 };
 
+/// In: where the eye is, in the room.
+trace::Ray eye_ray_from(const place::Eye& eye, const geometry::Point& at, double x, double y) {
+  const geometry::Vector3 d = place::direction_through(eye, x, y);
+  const geometry::Tangent floor = eye.room_from_eye * geometry::Tangent(0, d.x, d.y);
+  return trace::ray_from(eye.room_from_eye.space, {at, eye.z}, {floor, d.z});
+}
+
 /// Draws pixels by all their samples, as many rays at once as make a stream.
 void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options,
                  const std::vector<std::array<double, 2>>& samples, const std::vector<Pixel>& pixels, Film& film) {
   const std::size_t count = samples.size(), all = pixels.size() * count;
   const double n = static_cast<double>(count);
+  const geometry::Point eye_at = eye.room_from_eye * geometry::Point();
   std::vector<trace::Ray> rays;
+  rays.reserve(std::min(all, kStream));
   Sums sums;
   for (std::size_t first = 0; first < all; first += kStream) {
     rays.clear();
     for (std::size_t i = first; i < std::min(all, first + kStream); ++i)
-      rays.push_back(eye_ray(eye, pixels[i / count].x + samples[i % count][0], pixels[i / count].y + samples[i % count][1]));
+      rays.push_back(eye_ray_from(eye, eye_at, pixels[i / count].x + samples[i % count][0], pixels[i / count].y + samples[i % count][1]));
     std::vector<trace::Path> paths = trace::follow(scene, rays, follow_options(options));
     for (std::size_t j = 0; j < paths.size(); ++j) {
       const std::size_t i = first + j, sample = i % count;
@@ -79,12 +88,7 @@ void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const Dr
 
 }  // namespace
 
-trace::Ray eye_ray(const place::Eye& eye, double x, double y) {
-  const geometry::Vector3 d = place::direction_through(eye, x, y);
-  const geometry::Point at = eye.room_from_eye * geometry::Point();
-  const geometry::Tangent floor = eye.room_from_eye * geometry::Tangent(0, d.x, d.y);
-  return trace::ray_from(eye.room_from_eye.space, {at, eye.z}, {floor, d.z});
-}
+trace::Ray eye_ray(const place::Eye& eye, double x, double y) { return eye_ray_from(eye, eye.room_from_eye * geometry::Point(), x, y); }
 
 std::vector<std::array<double, 2>> sample_points(int samples) {
   const int side = static_cast<int>(std::lround(std::sqrt(samples)));

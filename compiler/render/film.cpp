@@ -1,6 +1,7 @@
 #include "compiler/render/film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,36 @@ scene::Color distinct(std::int32_t id) {
   const auto channel = [&](double shift) { return std::clamp(std::fabs(std::fmod(hue + shift, 6.0) - 3) - 1, 0.0, 1.0) * 0.75 + 0.2; };
   return {channel(0), channel(4), channel(2)};
 }
+
+/// round(255·encode_srgb(v)) without its power: the bytes grow with v, so it is a matter of where each begins, found once to the last bit.
+class Encoder {
+ public:
+  Encoder() {
+    begin_[0] = 0;
+    for (int b = 1; b < 256; ++b) {
+      double low = begin_[static_cast<std::size_t>(b - 1)], high = 1;  // the first is below byte b, the second not
+      for (double middle = (low + high) / 2; middle > low && middle < high; middle = (low + high) / 2)
+        (to_byte(scene::encode_srgb(middle)) >= b ? high : low) = middle;
+      begin_[static_cast<std::size_t>(b)] = high;
+    }
+    std::size_t b = 0;
+    for (std::size_t i = 0; i <= kCells; ++i) {
+      while (b < 255 && begin_[b + 1] <= static_cast<double>(i) / kCells) ++b;
+      first_[i] = static_cast<std::uint8_t>(b);
+    }
+  }
+  std::uint8_t operator()(double v) const {
+    const double x = v > 0 ? std::min(v, 1.0) : 0.0;  // what is no number shows as black
+    std::size_t b = first_[static_cast<std::size_t>(x * kCells)];
+    while (b < 255 && begin_[b + 1] <= x) ++b;
+    return static_cast<std::uint8_t>(b);
+  }
+
+ private:
+  static constexpr std::size_t kCells = 4096;
+  std::array<double, 256> begin_;   ///< smallest value of each byte
+  std::array<std::uint8_t, kCells + 1> first_;  ///< byte of i/kCells
+};
 
 template <class Value>
 mesh::Image painted(const Film& film, Value&& value) {
@@ -45,10 +76,15 @@ Film make_film(int width, int height) {
 }
 
 mesh::Image to_image(const Film& film, double exposure) {
-  return painted(film, [&](std::size_t i) {
+  static const Encoder encode;
+  mesh::Image image{film.width, film.height, std::vector<std::uint8_t>(film.color.size() * 4, 255)};
+  for (std::size_t i = 0; i < film.color.size(); ++i) {
     const scene::Color c = exposure * film.color[i];
-    return scene::Color{scene::encode_srgb(c.r), scene::encode_srgb(c.g), scene::encode_srgb(c.b)};
-  });
+    image.rgba[4 * i] = encode(c.r);
+    image.rgba[4 * i + 1] = encode(c.g);
+    image.rgba[4 * i + 2] = encode(c.b);
+  }
+  return image;
 }
 
 mesh::Image to_image(const Film& film, Pass pass, double exposure) {

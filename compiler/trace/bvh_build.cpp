@@ -36,8 +36,16 @@ struct Range {
   std::size_t size() const { return end - begin; }
 };
 
-float down(double v) { return std::nextafter(static_cast<float>(v), -kNever); }
-float up(double v) { return std::nextafter(static_cast<float>(v), kNever); }
+// Outwards, and never to a subnormal number: the floor's plane z = 0 would become one, and each node test would wait a hundred cycles for it.
+constexpr float kLeast = 1e-30f;
+float down(double v) {
+  const float f = std::nextafter(static_cast<float>(v), -kNever);
+  return std::fabs(f) < kLeast ? -kLeast : f;
+}
+float up(double v) {
+  const float f = std::nextafter(static_cast<float>(v), kNever);
+  return std::fabs(f) < kLeast ? kLeast : f;
+}
 
 constexpr int kBins = 16;
 
@@ -198,7 +206,7 @@ struct Builder {
         const geometry::Vector3 edge = at[i] - at[(i + 1) % 3];
         size = std::max({size, std::hypot(edge.x, edge.y), std::fabs(edge.z)});
       }
-      block.size[lane] = up(size);
+      block.size[lane] = used ? std::max(up(size), 1e-9f) : 1.0f;  // larger is safe; products with none would be subnormal
     }
     return block;
   }

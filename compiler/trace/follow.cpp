@@ -56,6 +56,7 @@ const MirrorArea* mirror_at(const TraceScene& scene, const Ray& ray, double t, i
   if (surface == kCeiling) return scene.ceiling_mirror ? &*scene.ceiling_mirror : nullptr;
   const auto& areas = scene.mirrors[static_cast<std::size_t>(surface)];
   if (areas.empty()) return nullptr;
+  if (areas.front().whole) return &areas.front();
   const auto at = position_at(scene.prism.space, ray, t);
   const double s = arc_on_wall(scene.prism.space, scene.prism.walls[static_cast<std::size_t>(surface)], at.floor);
   for (const MirrorArea& area : areas)

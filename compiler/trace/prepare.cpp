@@ -19,11 +19,15 @@ MirrorArea area_of(const place::PlacedMirror& mirror, int index, double length, 
   area.mirror = index;
   area.weight = mirror.reflectance * mirror.tint;
   area.glow = mirror.glow;
-  if (mirror.wall < 0) return area;
+  if (mirror.wall < 0) {
+    area.whole = true;
+    return area;
+  }
   if (mirror.span[0] > kEnd) area.span[0] = mirror.span[0];
   if (mirror.span[1] < length - kEnd) area.span[1] = mirror.span[1];
   if (mirror.height[0] > kEnd) area.height[0] = mirror.height[0];
   if (mirror.height[1] < height - kEnd) area.height[1] = mirror.height[1];
+  area.whole = area.span[0] == -kEndless && area.span[1] == kEndless && area.height[0] == -kEndless && area.height[1] == kEndless;
   return area;
 }
 

@@ -26,7 +26,8 @@ Ray ray_from(Space space, const Position& from, const Direction& d) {
   ray.at = geometry::normalised_point(space, from.floor);
   ray.z = from.z;
   const double horizontal = std::sqrt(std::max(0.0, inner(space, {d.floor, 0}, {d.floor, 0})));
-  const double length = std::hypot(horizontal, d.z);
+  const double square = horizontal * horizontal + d.z * d.z;
+  const double length = square > 1e-200 && square < 1e200 ? std::sqrt(square) : std::hypot(horizontal, d.z);
   if (horizontal < 1e-150 * length || horizontal == 0) {
     ray.along = any_tangent(space, ray.at);
     ray.c = 0;

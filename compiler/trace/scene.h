@@ -17,6 +17,7 @@ class Bvh;
 /// or an edge of the room cannot slip past it.
 struct MirrorArea {
   double span[2] = {-kEndless, kEndless}, height[2] = {-kEndless, kEndless};
+  bool whole = false;               ///< no end is left: it holds every point of its surface
   scene::Color weight;              ///< reflectance × tint
   scene::Color glow;                ///< radiance of its own
   int mirror = -1;                  ///< index into PlacedRoom::mirrors

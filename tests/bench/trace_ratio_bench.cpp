@@ -1,6 +1,7 @@
 // The tracer against the limit: Embree's rtcIntersect1 on straight rays in the Euclidean room, walls analytic on both sides. Repetitions are
 // interleaved in one process and the medians' ratios printed, since absolute times drift. One thread: CPU time of the thread.
-// trace_ratio_bench [repetitions] [triangle counts…] [--threads]
+// With two threads both clocks are told: the wall's, and that of the busier thread, which a busy machine does not lengthen.
+// trace_ratio_bench [repetitions] [triangle counts…] [--threads] [--json FILE]
 #include <pmmintrin.h>
 #include <time.h>
 #include <xmmintrin.h>
@@ -10,10 +11,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <fstream>
 #include <string>
 #include <thread>
 
 #include "tests/bench/trace_scenes.h"
+#include "tests/support/threads.h"
 #ifdef ORBC_EMBREE
 #include <embree3/rtcore.h>
 #endif
@@ -31,6 +34,16 @@ double cpu_seconds() {
 }
 
 double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// All figures once more, for machines.
+struct Figures {
+  std::string text;
+  void add(const std::string& key, double value) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%.4g", value);
+    text += (text.empty() ? "{\n " : ",\n ") + ('"' + key + "\": ") + number;
+  }
+} figures;
 
 struct Work {
   std::uint64_t rays = 0, hits = 0;
@@ -133,7 +146,7 @@ struct Embree {
 struct Runner {
   std::string name;
   std::function<Work(std::size_t begin, std::size_t end)> run;
-  std::vector<double> times;
+  std::vector<double> times, cpu;   ///< of the measure's clock; two threads: also CPU time of the busier
   Work work;
   double median() {
     std::sort(times.begin(), times.end());
@@ -148,11 +161,11 @@ Runner runner(const std::string& name, const Case& c, int bounces, Find find) {
             Work work;
             for (std::size_t i = begin; i < end; ++i) bounce(c.scene, c.rays[i], bounces, find, work);
             return work;
-          }, {}, {}};
+          }, {}, {}, {}};
 }
 
 void measure(std::vector<Runner>& runners, std::size_t rays, int repetitions, int threads) {
-  for (Runner& r : runners) r.times.clear();
+  for (Runner& r : runners) r.times.clear(), r.cpu.clear();
   for (int i = 0; i < repetitions; ++i)
     for (Runner& r : runners) {
       if (threads == 1) {
@@ -162,12 +175,17 @@ void measure(std::vector<Runner>& runners, std::size_t rays, int repetitions, in
       } else {
         const double start = wall_seconds();
         Work other;
+        double cpu = 0;
         std::thread second([&] {
           _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
           other = r.run(rays / 2, rays);
+          cpu = cpu_seconds();
         });
+        const double own = cpu_seconds();
         r.work = r.run(0, rays / 2);
+        const double busy = cpu_seconds() - own;
         second.join();
+        r.cpu.push_back(std::max(busy, cpu));
         r.work.rays += other.rays;
         r.times.push_back(wall_seconds() - start);
       }
@@ -185,6 +203,12 @@ void print(int size, int bounces, std::vector<Runner>& runners) {
     if (own)
       for (std::size_t j = i; j < i + 3; ++j) std::printf("%s %s %.2f", j == i ? "  | of Embree:" : "", runners[j].name.c_str(), runners[j].rate() / runners[0].rate());
     std::printf("  | of straight: S2 %.2f H2 %.2f", runners[i + 1].rate() / runners[i].rate(), runners[i + 2].rate() / runners[i].rate());
+    const std::string key = std::to_string(size) + (bounces ? " mirrors " : " camera ") + (i == own ? "singly " : "streams ");
+    for (std::size_t j = i; j < i + 3; ++j) {
+      figures.add(key + runners[j].name + " Mrays/s", runners[j].rate());
+      if (own) figures.add(key + runners[j].name + " of Embree", runners[j].rate() / runners[0].rate());
+      if (j > i) figures.add(key + runners[j].name + " of straight", runners[j].rate() / runners[i].rate());
+    }
   }
   std::printf("\n");
 }
@@ -194,9 +218,11 @@ void print(int size, int bounces, std::vector<Runner>& runners) {
 int main(int argc, char** argv) {
   int repetitions = 7;
   bool threads = false;
+  std::string json;
   std::vector<int> sizes;
   for (int i = 1; i < argc; ++i) {
     if (std::string(argv[i]) == "--threads") threads = true;
+    else if (std::string(argv[i]) == "--json" && i + 1 < argc) json = argv[++i];
     else if (i == 1) repetitions = std::atoi(argv[i]);
     else sizes.push_back(std::atoi(argv[i]));
   }
@@ -213,6 +239,13 @@ int main(int argc, char** argv) {
       std::printf("%s: %zu triangles, prepared in %.3f s (CPU %.3f s, one thread), %.1f bytes a triangle, %zu nodes, %zu blocks\n", c.name.c_str(), c.placed.parts[0].triangles.size(),
                   wall_seconds() - start, cpu_seconds() - cpu, double(c.scene.objects->bytes()) / double(c.placed.parts[0].triangles.size()),
                   c.scene.objects->charts()[0].nodes.size(), c.scene.objects->charts()[0].blocks.size());
+      const double both = wall_seconds();
+      { const TraceScene again = prepare(c.placed, orbc::testing::threads(2)); }
+      std::printf("    on two threads in %.3f s\n", wall_seconds() - both);
+      const std::string key = std::to_string(size) + " " + c.name;
+      figures.add(key + " prepared on two threads, s", wall_seconds() - both);
+      figures.add(key + " prepared, CPU s", cpu_seconds() - cpu);
+      figures.add(key + " bytes a triangle", double(c.scene.objects->bytes()) / double(c.placed.parts[0].triangles.size()));
     }
     for (const Case& c : cases) {
       BvhCounts counts;
@@ -231,16 +264,25 @@ int main(int argc, char** argv) {
       runners.push_back(runner("Embree", cases[0], bounces, [&](const Ray& ray) { return embree.closest(cases[0].scene, ray); }));
 #endif
       for (const Case& c : cases) runners.push_back(runner(c.name, c, bounces, [&c](const Ray& ray) { return closest(c.scene, ray); }));
-      for (const Case& c : cases) runners.push_back({c.name, [&c, bounces](std::size_t begin, std::size_t end) { return streams(c, begin, end, bounces); }, {}, {}});
+      for (const Case& c : cases) runners.push_back({c.name, [&c, bounces](std::size_t begin, std::size_t end) { return streams(c, begin, end, bounces); }, {}, {}, {}});
       measure(runners, cases[0].rays.size(), repetitions, 1);
       print(size, bounces, runners);
       if (!threads) continue;
-      std::vector<double> one;
-      for (Runner& r : runners) one.push_back(r.rate());
+      std::vector<double> one, one_cpu;
+      for (Runner& r : runners) one.push_back(r.rate()), one_cpu.push_back(r.median());
       measure(runners, cases[0].rays.size(), repetitions, 2);
       std::printf("        two threads over one:");
-      for (std::size_t i = 0; i < runners.size(); ++i) std::printf("  %s %.2f", runners[i].name.c_str(), runners[i].rate() / one[i]);
+      for (std::size_t i = 0; i < runners.size(); ++i) {
+        Runner& r = runners[i];
+        std::sort(r.cpu.begin(), r.cpu.end());
+        const double by_cpu = one_cpu[i] / r.cpu[r.cpu.size() / 2];
+        std::printf("  %s %.2f (by CPU time %.2f)", r.name.c_str(), r.rate() / one[i], by_cpu);
+        const std::string key = std::to_string(size) + (bounces ? " mirrors " : " camera ") + (i + 3 >= runners.size() ? "streams " : "singly ") + r.name;
+        figures.add(key + " two threads over one", r.rate() / one[i]);
+        figures.add(key + " two threads over one, CPU time", by_cpu);
+      }
       std::printf("\n");
     }
   }
+  if (!json.empty()) std::ofstream(json) << figures.text << "\n}\n";
 }

@@ -163,6 +163,22 @@ TEST_CASE("the film does not depend on the order in which tiles are drawn", "[re
   CHECK(render::to_exr(a) == render::to_exr(b));
 }
 
+TEST_CASE("bytes of a picture are the rounded encoded values, whichever way they are found", "[render]") {
+  render::Film film = render::make_film(4096, 1);
+  std::uint64_t state = 5;
+  for (std::size_t i = 0; i < film.color.size(); ++i) {
+    const auto draw = [&] { return static_cast<double>((state = state * 6364136223846793005u + 1442695040888963407u) >> 11) * 0x1p-53; };
+    const double step = scene::decode_srgb((static_cast<double>(i % 256) + 0.5) / 255);  // where bytes change
+    film.color[i] = {draw() * 1.2 - 0.1, draw() * draw() * 0.01, i < 512 ? step : i < 1024 ? std::nextafter(step, 0.0) : i < 1536 ? std::nextafter(step, 1.0) : draw()};
+  }
+  const mesh::Image image = render::to_image(film, 1);
+  int different = 0;
+  const auto byte = [](double v) { return std::lround(255 * scene::encode_srgb(v)); };
+  for (std::size_t i = 0; i < film.color.size(); ++i)
+    different += image.rgba[4 * i] != byte(film.color[i].r) || image.rgba[4 * i + 1] != byte(film.color[i].g) || image.rgba[4 * i + 2] != byte(film.color[i].b) || image.rgba[4 * i + 3] != 255;
+  CHECK(different == 0);
+}
+
 TEST_CASE("threads prepare and draw what one alone does", "[render][threads]") {
   for (const bool lamp : {false, true}) {
     scene::Scene s;

@@ -130,7 +130,7 @@ TEST_CASE("a ball that reflects all is not to be seen in a furnace", "[render]")
     ball.material->color = {1, 1, 1};
     ball.place.floor = scene::AtPolar{0.25, Angle::from_degrees(15)};
     s.objects = {ball};
-    const render::Film film = draw(room_of(s), 14);
+    const render::Film film = draw(room_of(s), 20);
     int balls = 0;
     for (std::size_t i = 0; i < film.color.size(); ++i) {
       CHECK(film.color[i].g == Approx(0.5).epsilon(1e-5));
