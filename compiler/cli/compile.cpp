@@ -72,6 +72,8 @@ driver::CompileOptions compile_options(const CompileArguments& a) {
   options.bend.tolerance_px = a.tolerance;
   options.bend.max_triangles = a.max_triangles;
   options.levels = !a.no_lod;
+  options.paint.highlights = a.highlights;
+  options.paint.max_side = a.max_atlas;
   options.max_memory = parse_bytes(a.max_memory);
   return options;
 }

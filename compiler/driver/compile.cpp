@@ -13,8 +13,6 @@
 #include "compiler/driver/estimate.h"
 #include "compiler/driver/levels.h"
 #include "compiler/geometry/chart.h"
-#include "compiler/light/atlas.h"
-#include "compiler/light/bake.h"
 #include "compiler/notation/print.h"
 
 namespace orbc::driver {
@@ -38,17 +36,6 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
   return result;
 }
 
-/// Plain colours, or, in a scene with lamps, the light of the room. In: the room with its levels of detail, which cast no shadows.
-Result<light::Atlas> make_atlas(const Opened& opened, const place::PlacedRoom& room, const light::BakeOptions& baking, const Executor& executor,
-                                const Progress& progress) {
-  if (!light::needs_bake(opened.scene, *opened.room)) return light::make_atlas(room);
-  const auto field = light::prepare_light(opened.scene, *opened.room, light::baked_light_options(opened.scene), executor);
-  if (!field) return field.error();
-  auto baked = light::bake(room, *field, baking, executor, progress);
-  if (!baked) return baked.error();
-  return std::move(baked->atlas);
-}
-
 /// What the copies are drawn from.
 std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock, const Choice& choice) {
   std::vector<bend::Model> models;
@@ -60,6 +47,16 @@ std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock
     }
   }
   return models;
+}
+
+/// The same for light, by number.
+light::DrawnParts parts_of(const Stock& stock, const Choice& choice) {
+  light::DrawnParts parts{{}, choice.model_of_copy};
+  for (const auto& levels : choice.models) {
+    parts.models.emplace_back();
+    for (std::size_t p = 0; p < levels.size(); ++p) parts.models.back().push_back(stock.part_of_level[p][levels[p]]);
+  }
+  return parts;
 }
 
 /// Why a scene cannot be compiled at all.
@@ -90,10 +87,9 @@ struct Ready {
   std::vector<cover::Copy> copies;
   Levels levels;
   Choice choice;
-  light::Atlas atlas;
+  Painted painted;
   std::vector<bend::Model> models;
   bend::BendOptions bending;
-  bool baked = false;
 };
 
 Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOptions& options, const light::BakeOptions& baking, const Executor& executor,
@@ -111,13 +107,16 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOpti
   ready->choice = with_levels ? choose_levels(*opened.room, ready->levels, ready->copies, opened.eye, options.bend) : no_levels(*opened.room, ready->copies.size());
   const Stock stock = stock_of(*opened.room, ready->levels, ready->choice);
   report(progress, "atlas", 0, 0);
-  auto atlas = make_atlas(opened, stock.room, baking, executor, progress);
-  if (!atlas) return atlas.error();
-  ready->atlas = std::move(atlas).value();
-  ready->models = models_of(ready->atlas, stock, ready->choice);
-  ready->baked = light::needs_bake(opened.scene, *opened.room);
+  ready->choice.model_of_copy.resize(ready->copies.size(), 0);
+  PaintOptions painting = options.paint;
+  painting.highlights = painting.highlights && options.bend.view == bend::View::eye;
+  auto painted = paint(opened, stock.room, ready->copies, parts_of(stock, ready->choice), baking, painting, executor, progress);
+  if (!painted) return painted.error();
+  ready->painted = std::move(painted).value();
+  ready->models = models_of(ready->painted.atlas, stock, ready->choice);
+  add_highlights(ready->painted, ready->models, ready->choice.model_of_copy);
   ready->bending = options.bend;
-  ready->bending.colours_vary = options.bend.colours_vary || ready->baked;
+  ready->bending.colours_vary = options.bend.colours_vary || ready->painted.baked;
   return ready;
 }
 
@@ -129,7 +128,7 @@ Result<cover::Plan> estimated(const Opened& opened, const CompileOptions& option
       copies.push_back(ready.copies[i]);
       if (!ready.choice.model_of_copy.empty()) models.push_back(ready.choice.model_of_copy[i]);
     }
-    return bend::bend(ready.atlas.room, ready.models, models, copies, opened.eye, ready.bending, executor);
+    return bend::bend(ready.painted.atlas.room, ready.models, models, copies, opened.eye, ready.bending, executor);
   };
   return estimate(*opened.room, opened.eye, ready.copies, opened.scene.cover.max_bounces, options.max_memory / 2, bend_some);
 }
@@ -147,7 +146,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   Ready& ready = **prepared;
   if (may_exceed(opened, options, ready))
     if (const auto planned = estimated(opened, options, ready, executor); !planned) return located(planned.error(), opened.scene.span);
-  auto bent = bend::bend(ready.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending, executor, progress);
+  auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending, executor, progress);
   if (!bent) return located(bent.error(), opened.scene.span);
 
   Compiled compiled;
@@ -155,8 +154,8 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   product.title = notation::to_text(opened.scene.orbifold);
   product.eye = opened.eye;
   product.background = opened.scene.cover.background;
-  product.atlas = std::move(ready.atlas.image);
-  product.blended_atlas = ready.baked;
+  product.atlas = std::move(ready.painted.atlas.image);
+  product.blended_atlas = ready.painted.baked;
   product.copies = drawn(ready.copies, bent->copies, opened.eye);
   product.positions = std::move(bent->positions);
   product.uv = std::move(bent->uv);
@@ -166,6 +165,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   Report& r = compiled.report;
   r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
   r.error_bound_px = bent->error_bound_px + ready.choice.error_px;
+  r.highlights = ready.painted.highlights.counts;
   for (const DrawnCopy& copy : product.copies) r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
   return compiled;
 }
@@ -175,7 +175,9 @@ Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, co
   light::BakeOptions coarse;
   coarse.coarse = coarse.fine = coarse.texture_fine = 0.01;
   coarse.passing = {1, 0.01};
-  const auto ready = get_ready(opened, options, coarse, executor, {});
+  CompileOptions plain = options;
+  plain.paint.highlights = false;
+  const auto ready = get_ready(opened, plain, coarse, executor, {});
   if (!ready) return located(ready.error(), opened.scene.span);
   auto planned = estimated(opened, options, **ready, executor);
   if (!planned) return located(planned.error(), opened.scene.span);
@@ -205,7 +207,8 @@ std::string report_json(const Compiled& compiled) {
   const Report& r = compiled.report;
   nlohmann::ordered_json json{{"orbifold", compiled.product.title}, {"copies", r.copies}, {"vertices", r.vertices}, {"triangles", r.triangles},
                               {"longest_word", r.longest_word}, {"error_bound_px", r.error_bound_px},
-                              {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}}};
+                              {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
+                              {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
   nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
   for (const DrawnCopy& c : compiled.product.copies) {
     list.push_back({{"word", cover::to_string(c.word)}, {"bounces", c.bounces}, {"sheet", c.sheet}, {"mirrored", c.reversing}, {"weight", {c.tint.r, c.tint.g, c.tint.b}},

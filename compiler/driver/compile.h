@@ -4,12 +4,14 @@
 #include "compiler/bend/bend.h"
 #include "compiler/cover/plan.h"
 #include "compiler/driver/open.h"
+#include "compiler/driver/paint.h"
 #include "compiler/driver/product.h"
 
 namespace orbc::driver {
 
 struct CompileOptions {
   bend::BendOptions bend;
+  PaintOptions paint;
   bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within the tolerance as well
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< half of it for the product, half for the file that is made of it
 };
@@ -19,6 +21,7 @@ struct Report {
   std::uint64_t copies = 0, vertices = 0, triangles = 0;
   double error_bound_px = 0;
   int longest_word = 0;
+  light::HighlightCounts highlights;
 };
 
 struct Compiled {

@@ -413,6 +413,10 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
   atlas.uv.resize(room.parts.size());
   for (std::size_t p = 0; p < room.parts.size(); ++p)
     rebuild(blocks[p], finished.data() + first[p], atlas.image.width, atlas.image.height, atlas.room.parts[p], atlas.uv[p]);
+  baked.boxes.resize(room.parts.size());
+  for (std::size_t p = 0; p < room.parts.size(); ++p)
+    for (std::size_t i = 0; i < blocks[p].size(); ++i) baked.boxes[p].push_back(finished[first[p] + i].box);
+  baked.blocks = std::move(blocks);
   return baked;
 }
 

@@ -2,6 +2,7 @@
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/light/atlas.h"
+#include "compiler/light/blocks.h"
 #include "compiler/light/passing.h"
 #include "compiler/light/shade.h"
 
@@ -44,6 +45,8 @@ struct BakeCounts {
 struct Baked {
   Atlas atlas;
   BakeCounts counts;
+  std::vector<std::vector<Block>> blocks;   ///< per part of the room; atlas.room has their vertices in this order: corners 00, 10, 01, of pairs 11
+  std::vector<std::vector<Box>> boxes;      ///< parallel: where in the picture
 };
 [[nodiscard]] Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const BakeOptions& options,
                                  const Executor& executor, const Progress& progress = {});

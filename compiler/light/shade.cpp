@@ -211,30 +211,4 @@ LightPoint light_point(const LightField& field, const place::PlacedRoom& room, c
   return {point.at, point.normal, point.at, point.wall, false};
 }
 
-Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material,
-                const Color& albedo) {
-  const Space space = field.scene.prism.space;
-  const double alpha = std::max(material.roughness * material.roughness, 0.002), a2 = alpha * alpha;
-  const double nv = trace::inner(space, point.normal, to_eye);
-  if (nv <= 0) return {};
-  const bool metal = material.kind == scene::MaterialKind::metal;
-  const double f0 = metal ? 1 : std::pow((material.index - 1) / (material.index + 1), 2);
-  const auto smith = [&](double c) { return 2 * c / (c + std::sqrt(a2 + (1 - a2) * c * c)); };
-  const auto shine = [&](const Way& way) {
-    const double nl = trace::inner(space, point.normal, way.start);
-    if (nl <= 0) return 0.0;
-    const Direction sum = way.start + to_eye;
-    const double size = std::sqrt(trace::inner(space, sum, sum));
-    if (size < 1e-9) return 0.0;
-    const Direction half = (1 / size) * sum;
-    const double nh = trace::inner(space, point.normal, half), lh = trace::inner(space, way.start, half);
-    const double base = nh * nh * (a2 - 1) + 1, d = a2 / (std::numbers::pi * base * base);
-    const double fresnel = f0 + (1 - f0) * std::pow(1 - std::clamp(lh, 0.0, 1.0), 5);
-    return fresnel * d * smith(nl) * smith(nv) / (4 * nv);
-  };
-  Color sum;
-  for (const LampImage& image : field.images) sum = sum + gather(field, image, point, false, shine);
-  return metal ? albedo * sum : sum;
-}
-
 }  // namespace orbc::light

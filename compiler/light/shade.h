@@ -71,7 +71,8 @@ struct LightField {
                                      const trace::Hit& hit);
 
 /// The light of glossy and metal surfaces that a matte one does not have: the lamps' reflections in it, towards the eye.
-/// Formula: GGX (Walter et al., Microfacet Models for Refraction, 2007) with Smith's shadowing and Schlick's Fresnel; α = roughness².
+/// Formula: GGX (Walter et al., Microfacet Models for Refraction, 2007) with Smith's shadowing and Schlick's Fresnel; α = roughness². Of a lamp with an extent all samples count.
+/// Error:   highlights that cannot reach 1/3000 of white are left out.
 [[nodiscard]] scene::Color highlight(const LightField& field, const LightPoint& point, const trace::Direction& to_eye,
                                      const scene::Material& material, const scene::Color& albedo);
 

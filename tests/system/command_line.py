@@ -101,6 +101,11 @@ with folder() as name:
             check(done.returncode == 1 and f'bad.yaml:{line}:' in told and code in told and '^' in told and not list(where.glob('bad.p*')) and not list(where.glob('bad-*')),
                   f'{command[0]} refuses {what}: {told.splitlines()[0] if told else ""}')
 
+    bad.write_text('orbc: 1\norbifold: "*2222"\nlights:\n  - {at: {polar: [0, 0deg], z: 0.8}}\n')
+    done = orbc('compile', bad, '-o', where / 'bad.pov', '--max-bounces', '0', '--max-atlas', '64')
+    check(done.returncode == 1 and b'bad.yaml:1:1' in done.stderr and b'light.atlas-too-large' in done.stderr and b'hint' in done.stderr and not list(where.glob('bad*.p*')),
+          'baked light beyond --max-atlas is refused, and nothing written')
+
     # warnings are told by every command that opens a scene
     bad.write_text('orbc: 1\norbifold: "*2222"\nlights:\n  - {at: centre, kind: point, radius: 0.2}\n')
     for command in (['compile', bad, '-o', where / 'warned.glb', '--max-bounces', '1'], ['trace', bad, '-o', where / 'warned.png', '--size', '8x6'], ['check', bad]):

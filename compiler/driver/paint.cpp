@@ -1,0 +1,44 @@
+#include "compiler/driver/paint.h"
+
+namespace orbc::driver {
+
+Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
+                      const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options, const Executor& executor,
+                      const Progress& progress) {
+  Painted painted;
+  if (!light::needs_bake(opened.scene, *opened.room)) {
+    auto atlas = light::make_atlas(room, {options.max_side});
+    if (!atlas) return atlas.error();
+    painted.atlas = std::move(*atlas);
+    return painted;
+  }
+  painted.baked = true;
+  const auto field = light::prepare_light(opened.scene, *opened.room, light::baked_light_options(opened.scene), executor);
+  if (!field) return field.error();
+  light::BakeOptions bake = baking;
+  bake.max_side = options.max_side;
+  auto baked = light::bake(room, *field, bake, executor, progress);
+  if (!baked) return baked.error();
+  if (options.highlights && light::needs_highlights(*opened.room, *field)) {
+    light::HighlightOptions shine;
+    shine.max_side = options.max_side;
+    painted.highlights = light::bake_highlights(room, *field, copies, drawn, opened.eye, shine, *baked, executor, progress);
+  }
+  painted.atlas = std::move(baked->atlas);
+  return painted;
+}
+
+void add_highlights(const Painted& painted, std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
+  const std::vector<light::OwnUv>& all = painted.highlights.own;
+  for (std::size_t i = 0; i < all.size();) {
+    const std::size_t copy = all[i].copy;
+    bend::Model model = models[model_of_copy[copy]];
+    for (; i < all.size() && all[i].copy == copy; ++i)
+      for (bend::Model::Part& part : model.parts)
+        if (part.mesh == &painted.atlas.room.parts[all[i].part]) part.uv = &all[i].uv;
+    model_of_copy[copy] = static_cast<std::uint32_t>(models.size());
+    models.push_back(std::move(model));
+  }
+}
+
+}  // namespace orbc::driver

@@ -1,0 +1,34 @@
+#pragma once
+#include "compiler/base/executor.h"
+#include "compiler/base/progress.h"
+#include "compiler/bend/bend.h"
+#include "compiler/driver/open.h"
+#include "compiler/light/highlight_bake.h"
+
+namespace orbc::driver {
+
+struct PaintOptions {
+  bool highlights = true;           ///< of glossy and metal surfaces, for this eye; false: diffuse light alone
+  int max_side = 16384;             ///< pixels of the atlas
+};
+
+/// The colours of a cover: the room in its atlas, and what copies have of their own.
+struct Painted {
+  light::Atlas atlas;
+  bool baked = false;               ///< light was worked out: colours vary everywhere
+  light::Highlights highlights;
+};
+
+/// Plain colours, or, in a scene with lamps, the light of the room, and highlights for the eye.
+/// In:          the room to be painted: the opened one, perhaps with further parts (levels of detail), which cast no shadows; its copies, and
+///              which parts they are drawn from.
+/// Diagnostics: those of light.
+[[nodiscard]] Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
+                                    const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options,
+                                    const Executor& executor, const Progress& progress = {});
+
+/// Gives copies with highlights of their own a model of their own: that of `model_of_copy`, with other places in the atlas for those of its
+/// parts that are parts of `painted.atlas.room`. In: models that refer to it; it must outlive them.
+void add_highlights(const Painted& painted, std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy);
+
+}  // namespace orbc::driver

@@ -1,0 +1,514 @@
+// Highlights move with the eye, so every copy has its own; but they are small. A block of a copy is asked at its corners and on a grid of a few
+// pixels; where nothing shines it stays the shared one. Elsewhere it gets texels of its own, about one for each pixel that it takes in the
+// picture, thinned out again where they are even.
+#include "compiler/light/highlight_bake.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+#include "compiler/light/way.h"
+
+namespace orbc::light {
+namespace {
+
+using geometry::Position;
+using geometry::Space;
+using place::PlacedMesh;
+using scene::Color;
+using trace::Direction;
+
+constexpr int kMaxLevel = 10;         // of a block: 1025 texels a side
+constexpr double kContrast = 3;       // steps of 1/255 between neighbouring points that ask for a point between them
+constexpr double kSmallestPart = 3;   // pixels: highlights of smaller things are left out
+constexpr std::size_t kBatch = 16;    // copies between two looks at the bound
+
+bool shines(const scene::Material& material) {
+  return material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
+}
+
+/// The eye as a copy sees it.
+struct EyeImage {
+  Space space = Space::euclidean;
+  Position at;
+  int sheet = 0;
+};
+
+EyeImage image_of(const cover::Copy& copy, const place::Eye& eye) {
+  const geometry::Point foot = eye.room_from_eye * geometry::Point();
+  return {eye.room_from_eye.space, {geometry::inverse(copy.cover_from_room) * foot, copy.storey.sign * (eye.z - copy.storey.offset)}, copy.sheet};
+}
+
+Way way_to(const EyeImage& eye, const Position& from) { return light::way_to(eye.space, from, eye.at, eye.sheet); }
+
+/// What one unit of length takes in the picture, at most: things stand across the sight, on the floor or upright.
+double pixels_per_unit(const EyeImage& eye, const Way& sight, double per_radian) {
+  const double across = std::fabs(geometry::sin_k(eye.space, sight.arc));
+  return per_radian * std::max(1 / std::max(sight.length, 1e-3), sight.arc / std::max(sight.length, 1e-3) / std::max(across, 1e-2));
+}
+
+struct Finished {
+  std::size_t block = 0;
+  Box box;
+  std::vector<Color> shown;           ///< encoded 0…1
+};
+
+struct Job {
+  const place::PlacedRoom& room;
+  const LightField& field;
+  const HighlightOptions& options;
+  const Baked& baked;
+  const PartNormals& normals;
+  std::size_t part;
+  EyeImage eye;
+  Color weight;                       ///< of the copy: what is faint needs no detail
+  double per_radian;
+};
+
+/// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure.
+class Base {
+ public:
+  Base(const mesh::Image& image, const Box& box) : image_(image), box_(box) {}
+  [[nodiscard]] Color at(double u, double v) const {
+    const double x = u * (box_.width - 1), y = v * (box_.height - 1);
+    const int i = std::min(static_cast<int>(x), box_.width - 2), j = std::min(static_cast<int>(y), box_.height - 2);
+    const double s = x - i, t = y - j;
+    return (1 - t) * ((1 - s) * texel(i, j) + s * texel(i + 1, j)) + t * ((1 - s) * texel(i, j + 1) + s * texel(i + 1, j + 1));
+  }
+
+ private:
+  [[nodiscard]] Color texel(int i, int j) const {
+    const std::uint8_t* p = image_.rgba.data() + 4 * (static_cast<std::size_t>(box_.y + j) * static_cast<std::size_t>(image_.width) +
+                                                      static_cast<std::size_t>(box_.x + i));
+    return {decoded(p[0]), decoded(p[1]), decoded(p[2])};
+  }
+  static double decoded(std::uint8_t code) {
+    static const std::array<double, 256> table = [] {
+      std::array<double, 256> all{};
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] = scene::decode_srgb(static_cast<double>(i) / 255);
+      return all;
+    }();
+    return table[code];
+  }
+  const mesh::Image& image_;
+  const Box& box_;
+};
+
+/// The highlights of a part in one copy.
+class PartShine {
+ public:
+  explicit PartShine(const Job& job)
+      : job_(job), mesh_(job.room.parts[job.part]), normals_(job.normals), blocks_(job.baked.blocks[job.part]) {}
+
+  std::vector<Finished> run() {
+    std::vector<Finished> done;
+    known_.assign(normals_.vertices.size(), 0);
+    at_vertex_.resize(normals_.vertices.size());
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const place::Look& look = job_.room.looks[mesh_.look[blocks_[i].first]];
+      if (!shines(look.material)) continue;
+      if (auto finished = bake_block(i, look)) done.push_back(std::move(*finished));
+    }
+    return done;
+  }
+  std::uint64_t asked = 0;
+
+ private:
+  struct Grid {
+    int w = 2, h = 2;
+    std::vector<Color> light;         ///< highlights, linear, times the exposure
+    std::vector<std::uint8_t> rough;
+    [[nodiscard]] std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i); }
+  };
+
+  Color shine(const LightPoint& point, const Color& albedo, const scene::Material& material) {
+    ++asked;
+    const Way sight = way_to(job_.eye, point.at);
+    if (!sight.exists) return {};
+    return job_.field.exposure * highlight(job_.field, point, sight.start, material, albedo);
+  }
+  /// Of a colour in the copy's weight, as the picture encodes it.
+  [[nodiscard]] std::array<double, 3> seen(const Color& c) const {
+    const auto code = [](double v) { return 255 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)); };
+    return {code(job_.weight.r * std::min(c.r, 1.0)), code(job_.weight.g * std::min(c.g, 1.0)), code(job_.weight.b * std::min(c.b, 1.0))};
+  }
+  [[nodiscard]] double difference(const Color& a, const Color& b) const {
+    if (a == b) return 0;
+    const auto x = seen(a), y = seen(b);
+    return std::max({std::fabs(x[0] - y[0]), std::fabs(x[1] - y[1]), std::fabs(x[2] - y[2])});
+  }
+
+  Color albedo_at(const Block& block, const place::Look& look, double u, double v) const {
+    const InTriangle at = in_triangle(block, u, v);
+    SurfaceKey key;
+    key.look = mesh_.look[at.triangle];
+    key.color = look.color;
+    const mesh::Triangle& t = mesh_.triangles[at.triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!mesh_.uv.empty())
+        for (std::size_t c = 0; c < 2; ++c) key.uv[c] += at.b[k] * static_cast<double>(mesh_.uv[t[k]][c]);
+      if (!mesh_.pattern_position.empty()) key.pattern_position = key.pattern_position + at.b[k] * mesh_.pattern_position[t[k]];
+    }
+    for (double& c : key.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
+    key.solid = !mesh_.pattern_position.empty();
+    return surface_albedo(job_.room, key);
+  }
+
+  // Corners are shared by the blocks that meet there, unless the colour of a metal changes from one to the next.
+  Color corner(const Block& block, const place::Look& look, int far_u, int far_v) {
+    const std::size_t t = far_u && far_v ? static_cast<std::size_t>(block.second) : block.first;
+    const int k = far_u && far_v ? block.second_turn[0] : block.turn[static_cast<std::size_t>(far_u ? 1 : far_v ? 2 : 0)];
+    const std::uint32_t v = normals_.corners[t][static_cast<std::size_t>(k)];
+    const bool own = look.material.kind == scene::MaterialKind::metal;
+    if (known_[v] && !own) return at_vertex_[v];
+    const Color albedo = own ? albedo_at(block, look, far_u, far_v) : Color{1, 1, 1};
+    at_vertex_[v] = shine(light_point(job_.room, mesh_, normals_.vertices[v]), albedo, look.material);
+    known_[v] = 1;
+    return at_vertex_[v];
+  }
+
+  Color ask(const Block& block, const place::Look& look, const Grid& grid, int i, int j) {
+    const bool end_u = i == 0 || i == grid.w - 1, end_v = j == 0 || j == grid.h - 1;
+    if (end_u && end_v) return corner(block, look, i > 0, j > 0);
+    const double u = static_cast<double>(i) / (grid.w - 1), v = static_cast<double>(j) / (grid.h - 1);
+    const InTriangle at = in_triangle(block, u, v);
+    const Color albedo = look.material.kind == scene::MaterialKind::metal ? albedo_at(block, look, u, v) : Color{1, 1, 1};
+    return shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), albedo, look.material);
+  }
+
+  static bool valid(const Block& block, const Grid& grid, int i, int j) {
+    return block.second >= 0 || static_cast<std::int64_t>(i) * (grid.h - 1) + static_cast<std::int64_t>(j) * (grid.w - 1) <=
+                                    static_cast<std::int64_t>(grid.w - 1) * (grid.h - 1);
+  }
+
+  /// Pixels per unit at the block's nearest corner; 0 when all of it turns away from the eye.
+  double nearness(const Block& block) const {
+    double most = 0;
+    bool towards = false;
+    for (int c = 0; c < (block.second >= 0 ? 4 : 3); ++c) {
+      const std::size_t t = c == 3 ? static_cast<std::size_t>(block.second) : block.first;
+      const int k = c == 3 ? block.second_turn[0] : block.turn[static_cast<std::size_t>(c)];
+      const ShadingVertex& v = normals_.vertices[normals_.corners[t][static_cast<std::size_t>(k)]];
+      const Way sight = way_to(job_.eye, {mesh_.floor[v.vertex], mesh_.z[v.vertex]});
+      if (!sight.exists) continue;
+      towards = towards || trace::inner(job_.eye.space, sight.start, v.normal) > 0;
+      most = std::max(most, pixels_per_unit(job_.eye, sight, job_.per_radian));
+    }
+    return towards ? most : 0;
+  }
+
+  std::optional<Finished> bake_block(std::size_t number, const place::Look& look) {
+    const Block& block = blocks_[number];
+    const double per_unit = nearness(block);
+    if (per_unit <= 0) return std::nullopt;
+    const Base base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number]);
+    const auto level = [](double cells) { return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel); };
+    const int a = level(block.length_u * per_unit / job_.options.fine_px), b = level(block.length_v * per_unit / job_.options.fine_px);
+    const int a0 = std::min(a, level(block.length_u * per_unit / job_.options.probe_px)), b0 = std::min(b, level(block.length_v * per_unit / job_.options.probe_px));
+    Grid grid;
+    grid.w = (1 << a) + 1, grid.h = (1 << b) + 1;
+    int su = 1 << (a - a0), sv = 1 << (b - b0);
+    // Most blocks end here, so the grid itself is not yet made.
+    std::vector<Color> probes;
+    bool any = false;
+    for (int j = 0; j < grid.h; j += sv)
+      for (int i = 0; i < grid.w; i += su) {
+        probes.push_back(valid(block, grid, i, j) ? ask(block, look, grid, i, j) : Color{});
+        if (probes.back() == Color{}) continue;
+        const Color under = base.at(static_cast<double>(i) / (grid.w - 1), static_cast<double>(j) / (grid.h - 1));
+        any = any || difference(under + probes.back(), under) > 0.5 * job_.options.tolerance;
+      }
+    if (!any) return std::nullopt;
+    grid.light.resize(static_cast<std::size_t>(grid.w) * static_cast<std::size_t>(grid.h));
+    grid.rough.assign(grid.light.size(), 0);
+    std::size_t next = 0;
+    for (int j = 0; j < grid.h; j += sv)
+      for (int i = 0; i < grid.w; i += su) grid.light[grid.index(i, j)] = probes[next++];
+    while (su > 1 || sv > 1) {
+      const int nu = std::max(1, su / 2), nv = std::max(1, sv / 2);
+      refine(block, look, grid, su, sv, nu, nv);
+      su = nu, sv = nv;
+    }
+    return finish(number, block, grid, base);
+  }
+
+  void refine(const Block& block, const place::Look& look, Grid& grid, int su, int sv, int nu, int nv) {
+    std::vector<std::uint8_t> rough(grid.rough.size(), 0);
+    for (int j = 0; j < grid.h; j += nv)
+      for (int i = 0; i < grid.w; i += nu) {
+        const bool odd_u = i % su != 0, odd_v = j % sv != 0;
+        if ((!odd_u && !odd_v) || !valid(block, grid, i, j)) continue;
+        const int i0 = i - i % su, i1 = odd_u ? i0 + su : i0, j0 = j - j % sv, j1 = odd_v ? j0 + sv : j0;
+        std::array<std::size_t, 4> parents{grid.index(i0, j1), grid.index(i1, j0), grid.index(i0, j0), grid.index(i1, j1)};
+        const std::size_t count = odd_u && odd_v && valid(block, grid, i1, j1) ? 4 : 2;
+        if (!odd_u || !odd_v) parents[0] = grid.index(i0, j0), parents[1] = grid.index(i1, j1);
+        Color mean;
+        bool needed = false;
+        for (std::size_t k = 0; k < count; ++k) {
+          mean = mean + (1.0 / static_cast<double>(count)) * grid.light[parents[k]];
+          needed = needed || grid.rough[parents[k]];
+        }
+        for (std::size_t k = 0; k + 1 < count && !needed; k += 2) needed = difference(grid.light[parents[k]], grid.light[parents[k + 1]]) > kContrast;
+        Color& light = grid.light[grid.index(i, j)];
+        light = mean;
+        if (!needed) continue;
+        light = ask(block, look, grid, i, j);
+        if (difference(light, mean) <= job_.options.tolerance) continue;
+        rough[grid.index(i, j)] = 1;
+        for (std::size_t k = 0; k < count; ++k) rough[parents[k]] = 1;
+      }
+    grid.rough = std::move(rough);
+  }
+
+  // Diffuse light and highlight together, on as few texels as show them.
+  std::optional<Finished> finish(std::size_t number, const Block& block, const Grid& grid, const Base& base) const {
+    int w = grid.w, h = grid.h;
+    std::vector<Color> sum(grid.light.size());
+    bool any = false;
+    for (int j = 0; j < h; ++j)
+      for (int i = 0; i < w; ++i) {
+        if (!valid(block, grid, i, j)) continue;
+        const Color under = base.at(static_cast<double>(i) / (w - 1), static_cast<double>(j) / (h - 1));
+        const Color all = under + grid.light[grid.index(i, j)];
+        any = any || difference(all, under) > job_.options.tolerance;
+        sum[grid.index(i, j)] = {std::min(all.r, 1.0), std::min(all.g, 1.0), std::min(all.b, 1.0)};
+      }
+    if (!any) return std::nullopt;
+    while (w > 2 && even(block, sum, w, h, true)) sum = thinned(sum, w, h, true), w = (w + 1) / 2;
+    while (h > 2 && even(block, sum, w, h, false)) sum = thinned(sum, w, h, false), h = (h + 1) / 2;
+    Finished done;
+    done.block = number;
+    done.box.width = w, done.box.height = h;
+    Grid shape;
+    shape.w = w, shape.h = h;
+    for (int j = 0; j < h; ++j)
+      for (int i = 0; i < w; ++i) {
+        Color& c = sum[shape.index(i, j)];
+        if (!valid(block, shape, i, j)) {  // a single triangle beyond its long side
+          c = sum[shape.index(i - 1, j)] + sum[shape.index(i, j - 1)] + -1.0 * sum[shape.index(i - 1, j - 1)];
+          c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
+        }
+        done.shown.push_back({scene::encode_srgb(c.r), scene::encode_srgb(c.g), scene::encode_srgb(c.b)});
+      }
+    return done;
+  }
+
+  // Whether every second column (or row) is the mean of its neighbours.
+  bool even(const Block& block, const std::vector<Color>& sum, int w, int h, bool columns) const {
+    Grid shape;
+    shape.w = w, shape.h = h;
+    for (int j = columns ? 0 : 1; j < h; j += columns ? 1 : 2)
+      for (int i = columns ? 1 : 0; i < w; i += columns ? 2 : 1) {
+        const int di = columns, dj = !columns;
+        if (!valid(block, shape, i + di, j + dj)) {
+          if (valid(block, shape, i, j)) return false;
+          continue;
+        }
+        const Color mean = 0.5 * (sum[shape.index(i - di, j - dj)] + sum[shape.index(i + di, j + dj)]);
+        if (difference(sum[shape.index(i, j)], mean) > 0.5 * job_.options.tolerance) return false;
+      }
+    return true;
+  }
+  static std::vector<Color> thinned(const std::vector<Color>& sum, int w, int h, bool columns) {
+    std::vector<Color> few;
+    for (int j = 0; j < h; j += columns ? 1 : 2)
+      for (int i = 0; i < w; i += columns ? 2 : 1) few.push_back(sum[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)]);
+    return few;
+  }
+
+  const Job& job_;
+  const PlacedMesh& mesh_;
+  const PartNormals& normals_;
+  const std::vector<Block>& blocks_;
+  std::vector<std::uint8_t> known_;
+  std::vector<Color> at_vertex_;
+};
+
+/// A ball around a part: its nearest and farthest point tell how large it is in the picture.
+struct Ball {
+  Position centre;
+  double radius = 0;
+};
+
+Ball ball_of(Space space, const PlacedMesh& part) {
+  geometry::Ambient sum{0, 0, 0};
+  double low = 1e300, high = -1e300;
+  for (std::size_t i = 0; i < part.floor.size(); ++i) sum = sum + part.floor[i], low = std::min(low, part.z[i]), high = std::max(high, part.z[i]);
+  Ball ball{{geometry::normalised_point(space, sum), (low + high) / 2}, 0};
+  for (std::size_t i = 0; i < part.floor.size(); ++i)
+    ball.radius = std::max(ball.radius, std::hypot(geometry::distance(space, ball.centre.floor, part.floor[i]), part.z[i] - ball.centre.z));
+  return ball;
+}
+
+/// A part with highlights, and which models have it (empty: all).
+struct ShinyPart {
+  std::size_t part = 0;
+  Ball ball;
+  PartNormals own;                    ///< of parts that the field does not know
+  std::vector<bool> in_model;
+};
+
+std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightField& field, const DrawnParts& drawn) {
+  std::vector<ShinyPart> parts;
+  const std::size_t count = drawn.models.empty() ? std::min(room.parts.size(), field.normals.size()) : room.parts.size();
+  for (std::size_t p = 0; p < count; ++p) {
+    const PlacedMesh& mesh = room.parts[p];
+    if (std::none_of(mesh.look.begin(), mesh.look.end(), [&](std::uint16_t look) { return shines(room.looks[look].material); })) continue;
+    ShinyPart part{p, ball_of(room.room.space, mesh), {}, {}};
+    for (const auto& model : drawn.models) part.in_model.push_back(std::find(model.begin(), model.end(), p) != model.end());
+    if (p >= field.normals.size()) part.own = part_normals(room, mesh);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// A finished part of one copy on its way into the atlas.
+struct Shining {
+  std::size_t copy = 0, part = 0;
+  std::vector<Finished> blocks;
+  std::uint64_t asked = 0;
+};
+
+std::vector<std::size_t> nearest_first(const std::vector<cover::Copy>& copies, const place::Eye& eye) {
+  std::vector<double> distance;
+  for (const cover::Copy& copy : copies) distance.push_back(way_to(image_of(copy, eye), {geometry::Point(), eye.z}).length);
+  std::vector<std::size_t> order(copies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return distance[a] < distance[b]; });
+  return order;
+}
+
+/// Puts all boxes below the first `top` rows; the picture's size, or nothing when it does not fit.
+std::optional<std::array<int, 2>> pack_below(std::vector<Box*>& boxes, int width, int top, int max_side) {
+  std::stable_sort(boxes.begin(), boxes.end(), [](const Box* a, const Box* b) { return a->height > b->height; });
+  std::int64_t area = 0;
+  for (const Box* box : boxes) area += static_cast<std::int64_t>(box->width) * box->height, width = std::max(width, box->width);
+  int wide = 16;
+  while (wide < width) wide *= 2;
+  while (wide * 2 <= max_side && top + area / wide > wide) wide *= 2;
+  if (wide > max_side) return std::nullopt;
+  std::int64_t y = top, shelf = 0;
+  int x = 0;
+  for (Box* box : boxes) {
+    if (x + box->width > wide) y += shelf, shelf = 0, x = 0;
+    if (y + box->height > max_side) return std::nullopt;
+    box->x = x, box->y = static_cast<int>(y);
+    x += box->width;
+    shelf = std::max<std::int64_t>(shelf, box->height);
+  }
+  return std::array<int, 2>{wide, static_cast<int>(y + shelf)};
+}
+
+void enlarge(Baked& baked, int width, int height) {
+  Atlas& atlas = baked.atlas;
+  mesh::Image larger{width, height, std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128)};
+  for (std::size_t i = 3; i < larger.rgba.size(); i += 4) larger.rgba[i] = 255;
+  for (int y = 0; y < atlas.image.height; ++y) {
+    const auto from = atlas.image.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(y) * atlas.image.width;
+    std::copy(from, from + 4 * static_cast<std::ptrdiff_t>(atlas.image.width), larger.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(y) * width);
+  }
+  const double u = static_cast<double>(atlas.image.width) / width, v = static_cast<double>(atlas.image.height) / height;
+  for (auto& part : atlas.uv)
+    for (auto& at : part) at = {static_cast<float>(u * static_cast<double>(at[0])), static_cast<float>(v * static_cast<double>(at[1]))};
+  atlas.image = std::move(larger);
+}
+
+/// The places of one part's vertices, block by block as the bake made them: corners 00, 10, 01 and, of pairs, 11.
+OwnUv own_uv(const Shining& shining, const Baked& baked) {
+  OwnUv own{shining.copy, shining.part, baked.atlas.uv[shining.part]};
+  const std::vector<Block>& blocks = baked.blocks[shining.part];
+  std::vector<std::size_t> first(blocks.size() + 1, 0);
+  for (std::size_t i = 0; i < blocks.size(); ++i) first[i + 1] = first[i] + (blocks[i].second < 0 ? 3 : 4);
+  for (const Finished& f : shining.blocks) {
+    const double x0 = f.box.x + 0.5, y0 = f.box.y + 0.5, x1 = f.box.x + f.box.width - 0.5, y1 = f.box.y + f.box.height - 0.5;
+    const auto place = [&](double x, double y) {
+      return std::array<float, 2>{static_cast<float>(x / baked.atlas.image.width), static_cast<float>(y / baked.atlas.image.height)};
+    };
+    std::array<float, 2>* at = own.uv.data() + first[f.block];
+    at[0] = place(x0, y0), at[1] = place(x1, y0), at[2] = place(x0, y1);
+    if (blocks[f.block].second >= 0) at[3] = place(x1, y1);
+  }
+  return own;
+}
+
+void draw(const Finished& f, mesh::Image& image) {
+  for (int y = 0; y < f.box.height; ++y)
+    for (int x = 0; x < f.box.width; ++x) {
+      const Color& c = f.shown[static_cast<std::size_t>(y) * static_cast<std::size_t>(f.box.width) + static_cast<std::size_t>(x)];
+      std::uint8_t* to = image.rgba.data() + 4 * (static_cast<std::size_t>(f.box.y + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(f.box.x + x));
+      to[0] = static_cast<std::uint8_t>(std::lround(255 * c.r)), to[1] = static_cast<std::uint8_t>(std::lround(255 * c.g));
+      to[2] = static_cast<std::uint8_t>(std::lround(255 * c.b));
+    }
+}
+
+}  // namespace
+
+bool needs_highlights(const place::PlacedRoom& room, const LightField& field) {
+  if (!field.lit || field.images.empty()) return false;
+  return std::any_of(room.looks.begin(), room.looks.end(), [](const place::Look& look) { return shines(look.material); });
+}
+
+trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const Position& at) {
+  return way_to(image_of(copy, eye), at).start;
+}
+
+Highlights bake_highlights(const place::PlacedRoom& room, const LightField& field, const std::vector<cover::Copy>& copies,
+                           const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked, const Executor& executor,
+                           const Progress& progress) {
+  Highlights result;
+  const std::vector<ShinyPart> parts = shiny_parts(room, field, drawn);
+  const double per_radian = place::pixels_per_radian(eye);
+  std::vector<Shining> all;
+  const std::vector<std::size_t> order = nearest_first(copies, eye);
+  std::size_t from = 0;
+  for (; from < order.size() && result.counts.texels <= options.max_texels; from += kBatch) {
+    report(progress, "highlights", from, order.size(), "copies");
+    const std::size_t count = std::min(kBatch, order.size() - from);
+    std::vector<Shining> batch(count * parts.size());
+    executor(batch.size(), [&](std::size_t i) {
+      Shining& shining = batch[i];
+      const ShinyPart& part = parts[i % parts.size()];
+      shining.copy = order[from + i / parts.size()], shining.part = part.part;
+      if (!part.in_model.empty() && !part.in_model[drawn.model_of_copy[shining.copy]]) return;
+      const cover::Copy& copy = copies[shining.copy];
+      const PartNormals& normals = part.part < field.normals.size() ? field.normals[part.part] : part.own;
+      const Job job{room, field, options, baked, normals, shining.part, image_of(copy, eye), copy.weight, per_radian};
+      const Ball& ball = part.ball;
+      const Way sight = way_to(job.eye, ball.centre);
+      const bool near = sight.length < 2 * ball.radius;
+      if (!near && sight.exists && 2 * ball.radius * pixels_per_unit(job.eye, sight, per_radian) < kSmallestPart) return;
+      PartShine shine(job);
+      shining.blocks = shine.run();
+      shining.asked = shine.asked;
+    });
+    for (Shining& shining : batch) {
+      result.counts.points += shining.asked;
+      if (shining.blocks.empty()) continue;
+      result.counts.blocks += shining.blocks.size();
+      for (const Finished& f : shining.blocks) result.counts.texels += f.shown.size();
+      all.push_back(std::move(shining));
+    }
+  }
+  result.counts.left_out = from < order.size() ? order.size() - from : 0;
+  std::sort(all.begin(), all.end(), [](const Shining& a, const Shining& b) { return std::tie(a.copy, a.part) < std::tie(b.copy, b.part); });
+  std::vector<Box*> boxes;
+  for (Shining& shining : all)
+    for (Finished& f : shining.blocks) boxes.push_back(&f.box);
+  const auto size = boxes.empty() ? std::nullopt : pack_below(boxes, baked.atlas.image.width, baked.atlas.image.height, options.max_side);
+  if (!size) {
+    result.counts.left_out = boxes.empty() ? 0 : copies.size();
+    return result;
+  }
+  enlarge(baked, (*size)[0], (*size)[1]);
+  for (const Shining& shining : all) {
+    if (result.own.empty() || result.own.back().copy != shining.copy) ++result.counts.copies;
+    for (const Finished& f : shining.blocks) draw(f, baked.atlas.image);
+    result.own.push_back(own_uv(shining, baked));
+  }
+  return result;
+}
+
+}  // namespace orbc::light
