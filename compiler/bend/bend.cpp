@@ -273,7 +273,7 @@ Diagnostic too_dense(Work& work, const Executor& executor) {
   }
   const std::string message = "bending " + std::to_string(work.copies.size()) + " copies needs more than " +
                               std::to_string(work.options.max_triangles) + " triangles";
-  if (least <= work.options.max_triangles) {
+  if (work.options.advise && least <= work.options.max_triangles) {
     for (double factor = 4; factor < 2e6; factor *= 4) {
       work.sight.tolerance = asked * factor;
       if (!count_all(work, executor, {}).fits) continue;

@@ -36,6 +36,7 @@ struct BendOptions {
   bool colours_vary = false;        ///< colours change inside triangles everywhere (baked light), not only where a part has a texture or a pattern
   double colour_tolerance = 4;      ///< how far such colours may shift within their surface, in units of the tolerance; > 0
   std::uint64_t max_triangles = 200'000'000;
+  bool advise = true;               ///< when that is exceeded, look for a tolerance that fits
 };
 
 /// Where one copy's vertices and triangles lie in the arrays of `BentCover`.

@@ -50,10 +50,24 @@ Extent extent_of(Space space, const place::PlacedMesh& mesh) {
   }
   if (space != Space::spherical || sum.w * sum.w + sum.x * sum.x + sum.y * sum.y > 1e-6) extent.centre = geometry::normalised_point(space, sum);
   for (const auto& p : mesh.floor) extent.radius = std::max(extent.radius, geometry::distance(space, extent.centre, p));
+  extent.mesh = &mesh;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const auto a = t[k], b = t[(k + 1) % 3];
+      extent.longest = std::max(extent.longest, std::hypot(geometry::distance(space, mesh.floor[a], mesh.floor[b]), mesh.z[a] - mesh.z[b]));
+    }
   return extent;
 }
 
 Detail::Detail(const place::Eye& eye, const BendOptions& options) : eye_from_room_(inverse(eye.room_from_eye)), sight_(sight_of(eye, options)) {}
+
+double Detail::nearest_vertex(const LogMap& map, const cover::Copy& copy, const Extent& extent) const {
+  double near = kCannotTell;
+  const place::PlacedMesh& mesh = *extent.mesh;
+  for (std::size_t i = 0; i < mesh.floor.size(); ++i)
+    near = std::min(near, length(bent_position(map, mesh.floor[i], copy.storey.sign * mesh.z[i] + copy.storey.offset) - sight_.eye));
+  return near;
+}
 
 double Detail::pixels_per_length(const cover::Copy& copy, const Extent& extent, double margin) const {
   const Space space = eye_from_room_.space;
@@ -64,8 +78,11 @@ double Detail::pixels_per_length(const cover::Copy& copy, const Extent& extent, 
   const double low = std::min(z0, z1) - margin, high = std::max(z0, z1) + margin;
   Way way{std::max(0.0, away - radius), away + radius, 1};
   if (space == Space::spherical) way = way_on(copy.sheet, way.from, way.to);
-  const double level = std::max({0.0, low - sight_.eye.z, sight_.eye.z - high}), near = std::hypot(way.from, level);
-  if (near < 1e-6 || way.stretch == kCannotTell) return kCannotTell;
+  if (way.stretch == kCannotTell) return kCannotTell;
+  const double level = std::max({0.0, low - sight_.eye.z, sight_.eye.z - high});
+  double near = std::hypot(way.from, level);
+  if (extent.mesh && near < radius) near = std::max(near, nearest_vertex(map, copy, extent) - way.stretch * (extent.longest + margin));
+  if (near < 1e-6) return kCannotTell;
   // The image lies in a ball: the log map stretches nothing by more than that.
   const Vector3 middle = bent_position(map, extent.centre, (low + high) / 2) - sight_.eye;
   const double ball = std::hypot(radius * way.stretch, (high - low) / 2), far = length(middle);
@@ -78,6 +95,16 @@ double Detail::pixels_per_length(const cover::Copy& copy, const Extent& extent, 
       if (dot(middle, n) > ball + 0.02 * (far + ball)) coarser = kOutside;
   }
   return pixels * way.stretch / near / coarser;
+}
+
+double Detail::smaller_side_px(const cover::Copy& copy, const Extent& extent) const {
+  const Space space = eye_from_room_.space;
+  const geometry::Ambient c = geometry::matrix(eye_from_room_ * copy.cover_from_room) * extent.centre;
+  const double sine = std::hypot(c.x, c.y), r = geometry::sin_k(space, std::min(extent.radius, space == Space::spherical ? std::numbers::pi / 2 : extent.radius));
+  if (!(sine > r)) return kCannotTell;
+  const double wide = 2 * std::asin(r / sine), near = std::max(0.0, geometry::arc_k(space, c.w, sine) - extent.radius) + copy.sheet * std::numbers::pi;
+  const double tall = near > 0 ? (extent.high - extent.low) / near : kCannotTell;
+  return std::min(wide, tall) * densest(sight_);
 }
 
 }  // namespace orbc::bend

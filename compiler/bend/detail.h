@@ -1,5 +1,6 @@
 #pragma once
 #include "compiler/bend/bend.h"
+#include "compiler/bend/log_map.h"
 #include "compiler/bend/sight.h"
 
 namespace orbc::bend {
@@ -9,6 +10,8 @@ struct Extent {
   geometry::Point centre;
   double radius = 0;
   double low = 0, high = 0;
+  const place::PlacedMesh* mesh = nullptr;   ///< close to the eye the cylinder tells too little: then the mesh is asked; may be missing
+  double longest = 0;                        ///< edge of the mesh
 };
 [[nodiscard]] Extent extent_of(geometry::Space space, const place::PlacedMesh& mesh);
 
@@ -21,8 +24,12 @@ class Detail {
   /// perspective picture counts an eighth, as for bending. `margin`: displacements reach that far beyond the extent.
   /// Formula: a displacement (radial, transverse, upright) at distance r is seen as (δr, δt·r/sinκ r, δz) at distance |(r, z)| ≥ r.
   [[nodiscard]] double pixels_per_length(const cover::Copy& copy, const Extent& extent, double margin) const;
+  /// The smaller side of the extent as it is seen, in pixels at most: of something narrower than that a picture shows little. Infinite around the eye.
+  [[nodiscard]] double smaller_side_px(const cover::Copy& copy, const Extent& extent) const;
 
  private:
+  [[nodiscard]] double nearest_vertex(const LogMap& map, const cover::Copy& copy, const Extent& extent) const;
+
   geometry::Isometry eye_from_room_;
   Sight sight_;
 };

@@ -49,7 +49,7 @@ struct CompileArguments {
   std::string format;               ///< empty = by the ending of `output`
   std::string view = "eye";
   double tolerance = 0.25;
-  std::uint64_t max_triangles = 200'000'000;
+  std::optional<std::uint64_t> max_triangles;
   std::string max_memory = "4GiB";
   bool no_lod = false;              ///< every copy in all detail
   std::string report;               ///< a file for the report as JSON; "-" = standard output

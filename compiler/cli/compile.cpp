@@ -70,7 +70,8 @@ driver::CompileOptions compile_options(const CompileArguments& a) {
   driver::CompileOptions options;
   options.bend.view = a.view == "disk" ? bend::View::disk : bend::View::eye;
   options.bend.tolerance_px = a.tolerance;
-  options.bend.max_triangles = a.max_triangles;
+  if (a.max_triangles && options.bend.view == bend::View::eye) options.budget = *a.max_triangles;
+  else if (a.max_triangles) options.bend.max_triangles = *a.max_triangles;
   options.levels = !a.no_lod;
   options.paint.highlights = a.highlights;
   options.paint.max_side = a.max_atlas;

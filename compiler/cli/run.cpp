@@ -38,7 +38,7 @@ void add_scene(CLI::App& command, SceneArguments& scene) {
 void add_compile_options(CLI::App& command, CompileArguments& a) {
   command.add_option("--quality", a.scene.quality, "How finely light is baked, instead of the scene's: draft, normal or fine")->check(CLI::IsMember({"draft", "normal", "fine"}))->type_name("NAME");
   command.add_option("--tolerance", a.tolerance, "Largest error of a bent edge, in pixels of the picture")->capture_default_str()->check(CLI::Range(1e-4, 1e4))->type_name("PX");
-  command.add_option("--max-triangles", a.max_triangles, "Refuse to make more triangles than this")->capture_default_str()->type_name("N");
+  command.add_option("--max-triangles", a.max_triangles, "Never make more triangles than this: the picture's error is let grow until they suffice, the report says how far")->type_name("N");
   command.add_flag("--no-lod", a.no_lod, "Draw far copies in all detail, too");
   command.add_option("--max-memory", a.max_memory, "Refuse what would take more memory than this")->capture_default_str()->type_name("SIZE");
   command.add_flag("!--no-highlights", a.highlights, "Leave out what glossy surfaces and metals show to this eye alone");

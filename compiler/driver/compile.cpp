@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "compiler/cover/beam.h"
 #include "compiler/cover/plan.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/estimate.h"
+#include "compiler/driver/budget.h"
 #include "compiler/driver/levels.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/notation/print.h"
@@ -31,7 +33,7 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
     const cover::Copy& c = copies[i];
     const bend::BentRange& r = ranges[i];
     result.push_back({r.first_vertex, r.vertex_count, r.first_index, r.index_count, c.weight, c.word, c.bounces, c.sheet, c.cover_from_room.reversing, distance_to(c, eye),
-                      c.storey.number, c.wedge});
+                      c.storey.number, 0, c.wedge});
   }
   return result;
 }
@@ -57,6 +59,12 @@ light::DrawnParts parts_of(const Stock& stock, const Choice& choice) {
     for (std::size_t p = 0; p < levels.size(); ++p) parts.models.back().push_back(stock.part_of_level[p][levels[p]]);
   }
   return parts;
+}
+
+ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels) {
+  ToldLevels of{part.name, {part.triangles.size()}, {0}};
+  for (const Level& level : levels) of.triangles.push_back(level.mesh.triangles.size()), of.error.push_back(level.error);
+  return of;
 }
 
 /// Why a scene cannot be compiled at all.
@@ -90,7 +98,29 @@ struct Ready {
   Painted painted;
   std::vector<bend::Model> models;
   bend::BendOptions bending;
+  std::uint64_t left_out = 0;
+  LevelTally tally;
 };
+
+/// Levels of detail, and what a budget of triangles leaves. Makes: why it cannot be met, or nothing.
+Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, Ready& ready, const Executor& executor, const Progress& progress) {
+  const bool for_eye = options.bend.view == bend::View::eye;
+  report(progress, "levels of detail", 0, 0);
+  if (options.levels && for_eye) ready.levels = make_levels(*opened.room, executor);
+  else ready.levels.resize(opened.room->parts.size());
+  if (options.budget && for_eye) {
+    auto fitted = fit_to_budget(*opened.room, ready.levels, ready.copies, opened.eye, *options.budget, ready.bending, executor, progress);
+    if (!fitted) return fitted.error();
+    ready.copies = std::move(fitted->copies);
+    ready.choice = std::move(fitted->choice);
+    ready.bending.tolerance_px = fitted->tolerance_px;
+    ready.left_out = fitted->left_out;
+  } else {
+    ready.choice = for_eye ? choose_levels(*opened.room, ready.levels, ready.copies, opened.eye, ready.bending) : no_levels(*opened.room, ready.copies.size());
+  }
+  ready.tally = tally(*opened.room, ready.levels, ready.choice);
+  return {};
+}
 
 Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOptions& options, const light::BakeOptions& baking, const Executor& executor,
                                          const Progress& progress) {
@@ -101,10 +131,9 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOpti
   if (!copies) return copies.error();
   if (const auto no = refusal(opened, options, *copies)) return *no;
   ready->copies = std::move(copies).value();
-  const bool with_levels = options.levels && options.bend.view == bend::View::eye;
-  report(progress, "levels of detail", 0, 0);
-  if (with_levels) ready->levels = make_levels(*opened.room, executor);
-  ready->choice = with_levels ? choose_levels(*opened.room, ready->levels, ready->copies, opened.eye, options.bend) : no_levels(*opened.room, ready->copies.size());
+  ready->bending = options.bend;
+  ready->bending.colours_vary = options.bend.colours_vary || light::needs_bake(opened.scene, *opened.room);
+  if (auto wrong = choose_detail(opened, options, *ready, executor, progress); !wrong.empty()) return wrong;
   const Stock stock = stock_of(*opened.room, ready->levels, ready->choice);
   report(progress, "atlas", 0, 0);
   ready->choice.model_of_copy.resize(ready->copies.size(), 0);
@@ -115,8 +144,6 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOpti
   ready->painted = std::move(painted).value();
   ready->models = models_of(ready->painted.atlas, stock, ready->choice);
   add_highlights(ready->painted, ready->models, ready->choice.model_of_copy);
-  ready->bending = options.bend;
-  ready->bending.colours_vary = options.bend.colours_vary || ready->painted.baked;
   return ready;
 }
 
@@ -157,6 +184,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   product.atlas = std::move(ready.painted.atlas.image);
   product.blended_atlas = ready.painted.baked;
   product.copies = drawn(ready.copies, bent->copies, opened.eye);
+  for (std::size_t i = 0; i < product.copies.size(); ++i) product.copies[i].level = ready.tally.level_of_copy[i];
   product.positions = std::move(bent->positions);
   product.uv = std::move(bent->uv);
   product.indices = std::move(bent->indices);
@@ -166,6 +194,13 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
   r.error_bound_px = bent->error_bound_px + ready.choice.error_px;
   r.highlights = ready.painted.highlights.counts;
+  r.triangles_whole = r.triangles + ready.tally.saved;
+  r.tolerance_px = ready.bending.tolerance_px, r.left_out = ready.left_out;
+  std::set<std::string> words;
+  for (const DrawnCopy& copy : product.copies) words.insert(cover::to_string(copy.word)), r.beams += copy.wedge ? 1 : 0;
+  r.words = words.size();
+  for (std::size_t p = 0; p < ready.levels.size(); ++p)
+    if (!ready.levels[p].empty()) r.levels.push_back(told(opened.room->parts[p], ready.levels[p]));
   for (const DrawnCopy& copy : product.copies) r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
   return compiled;
 }
@@ -206,13 +241,18 @@ static double degrees_of(const cover::Bearing& b) { return std::atan2(b.y, b.x) 
 std::string report_json(const Compiled& compiled) {
   const Report& r = compiled.report;
   nlohmann::ordered_json json{{"orbifold", compiled.product.title}, {"copies", r.copies}, {"vertices", r.vertices}, {"triangles", r.triangles},
-                              {"longest_word", r.longest_word}, {"error_bound_px", r.error_bound_px},
+                              {"triangles_without_levels", r.triangles_whole}, {"beams", r.beams}, {"words", r.words}, {"longest_word", r.longest_word},
+                              {"error_bound_px", r.error_bound_px}, {"tolerance_px", r.tolerance_px}, {"copies_left_out", r.left_out},
                               {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
                               {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
+  if (!r.levels.empty()) {
+    nlohmann::ordered_json& levels = json["levels"] = nlohmann::ordered_json::array();
+    for (const ToldLevels& of : r.levels) levels.push_back({{"part", of.part}, {"triangles", of.triangles}, {"error", of.error}});
+  }
   nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
   for (const DrawnCopy& c : compiled.product.copies) {
     list.push_back({{"word", cover::to_string(c.word)}, {"bounces", c.bounces}, {"sheet", c.sheet}, {"mirrored", c.reversing}, {"weight", {c.tint.r, c.tint.g, c.tint.b}},
-                    {"distance", c.distance}, {"triangles", c.index_count / 3}});
+                    {"distance", c.distance}, {"triangles", c.index_count / 3}, {"level", c.level}});
     if (c.storey != 0) list.back()["storey"] = c.storey;
     if (c.wedge) list.back()["wedge_deg"] = {degrees_of(c.wedge->from), degrees_of(c.wedge->to)};
   }

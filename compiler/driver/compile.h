@@ -1,4 +1,8 @@
 #pragma once
+#include <cstdint>
+#include <vector>
+#include <string>
+#include <optional>
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/bend/bend.h"
@@ -12,15 +16,28 @@ namespace orbc::driver {
 struct CompileOptions {
   bend::BendOptions bend;
   PaintOptions paint;
+  std::optional<std::uint64_t> budget;  ///< triangles: where more would come out, the picture's error is let grow until they suffice
   bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within the tolerance as well
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< half of it for the product, half for the file that is made of it
+};
+
+/// The levels of a part, the part itself first.
+struct ToldLevels {
+  std::string part;
+  std::vector<std::uint64_t> triangles;
+  std::vector<double> error;          ///< intrinsic length
 };
 
 /// What was made, in numbers; for report.json and the summary.
 struct Report {
   std::uint64_t copies = 0, vertices = 0, triangles = 0;
+  std::uint64_t triangles_whole = 0;  ///< about what they would be without levels of detail
+  std::uint64_t beams = 0, words = 0; ///< copies that are cut to a wedge; distinct words
+  std::uint64_t left_out = 0;         ///< copies that a budget left out: smaller in the picture than the tolerance
   double error_bound_px = 0;
+  double tolerance_px = 0;            ///< of bending and of levels: what was asked for, or what a budget allowed
   int longest_word = 0;
+  std::vector<ToldLevels> levels;     ///< of the parts that have some
   light::HighlightCounts highlights;
 };
 

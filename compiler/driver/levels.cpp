@@ -26,6 +26,7 @@ using place::PlacedMesh;
 constexpr std::size_t kHeavy = 200;     // triangles
 constexpr std::size_t kLightest = 24;   // triangles of the last level
 constexpr double kStep = 0.4;           // of the triangles of the level before
+constexpr double kAnything = 1e5;        // pixels: larger than pictures are; then even what is around the eye may be coarse
 constexpr double kWhole = std::numeric_limits<double>::infinity();
 
 /// The conformal chart around a part.
@@ -252,15 +253,29 @@ Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const 
       for (std::size_t l = 0; l < levels[p].size(); ++l) {
         const double error = levels[p][l].error;
         if (error > margin) margin = error, pixels = detail.pixels_per_length(copy, extents[p], margin);
-        if (!(pixels * error <= options.tolerance_px)) break;
+        if (!(pixels * error <= options.tolerance_px) && options.tolerance_px < kAnything) break;
         model[p] = static_cast<std::uint16_t>(l + 1);
-        gatherer.choice_.error_px = std::max(gatherer.choice_.error_px, pixels * error);
+        gatherer.choice_.error_px = std::max(gatherer.choice_.error_px, std::min(pixels * error, options.tolerance_px));
       }
     }
     gatherer.add(model);
   }
   if (gatherer.choice_.models.empty()) gatherer.index_of(std::vector<std::uint16_t>(room.parts.size(), 0));
   return std::move(gatherer.choice_);
+}
+
+LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choice& choice) {
+  LevelTally all;
+  for (const std::uint32_t m : choice.model_of_copy) {
+    int coarsest = 0;
+    for (std::size_t p = 0; p < levels.size(); ++p) {
+      const std::uint16_t level = choice.models[m][p];
+      coarsest = std::max<int>(coarsest, level);
+      if (level > 0) all.saved += room.parts[p].triangles.size() - levels[p][level - 1U].mesh.triangles.size();
+    }
+    all.level_of_copy.push_back(coarsest);
+  }
+  return all;
 }
 
 Stock stock_of(const place::PlacedRoom& room, const Levels& levels, const Choice& choice) {

@@ -36,6 +36,13 @@ struct Choice {
 /// Every copy whole.
 [[nodiscard]] Choice no_levels(const place::PlacedRoom& room, std::size_t copies);
 
+/// What a choice comes to.
+struct LevelTally {
+  std::vector<int> level_of_copy;   ///< the coarsest of its parts
+  std::uint64_t saved = 0;          ///< triangles, before bending
+};
+[[nodiscard]] LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choice& choice);
+
 /// The room with the levels that a choice uses as further parts, to be given colours all at once.
 struct Stock {
   place::PlacedRoom room;                                 ///< the parts of the room come first

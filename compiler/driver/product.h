@@ -23,6 +23,7 @@ struct DrawnCopy {
   bool reversing = false;
   double distance = 0;              ///< from the eye to the centre of the copy, horizontal
   int storey = 0;                   ///< mirrors on floor and ceiling: how many storeys up or down
+  int level = 0;                    ///< coarsest level of detail among its parts; 0 = all of it
   std::optional<cover::Wedge> wedge;  ///< the bearings in which it is seen, if not all of it is
 };
 

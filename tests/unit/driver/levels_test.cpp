@@ -1,3 +1,4 @@
+#include "compiler/driver/budget.h"
 #include "compiler/driver/levels.h"
 
 #include <algorithm>
@@ -113,4 +114,28 @@ TEST_CASE("the stock holds the levels in use, and each once", "[driver]") {
       const auto& mesh = stock.room.parts[stock.part_of_level[p][model[p]]];
       CHECK(mesh.triangles == (model[p] == 0 ? room.parts[p] : levels[p][model[p] - 1].mesh).triangles);
     }
+}
+
+TEST_CASE("a budget of triangles is met, with less error the more there may be", "[driver]") {
+  const auto room = room_with_knot(GENERATE(4, 5));
+  const auto levels = driver::make_levels(room, serial_executor());
+  const auto copies = copies_of(room, 4);
+  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  const bend::BendOptions options;
+  double last = 1e9;
+  for (const std::uint64_t budget : {2'000, 6'000, 20'000, 60'000, 1'000'000}) {
+    const auto fitted = driver::fit_to_budget(room, levels, copies, eye, budget, options, serial_executor());
+    REQUIRE(fitted.has_value());
+    CHECK(fitted->triangles <= budget);
+    // The eye stands close to the knot: what is around it becomes coarse last of all.
+    if (budget >= 20'000) CHECK(fitted->triangles >= std::min<std::uint64_t>(budget, 60'000) / 8);
+    CHECK(fitted->tolerance_px <= last);
+    CHECK(fitted->copies.size() + fitted->left_out == copies.size());
+    CHECK(fitted->choice.error_px <= fitted->tolerance_px);
+    last = fitted->tolerance_px;
+    if (budget == 1'000'000) CHECK(fitted->tolerance_px == options.tolerance_px);
+  }
+  const auto refused = driver::fit_to_budget(room, levels, copies, eye, 10, options, serial_executor());
+  REQUIRE(!refused.has_value());
+  CHECK(refused.error().front().code == "bend.too-dense");
 }
