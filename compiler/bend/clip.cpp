@@ -17,13 +17,15 @@ constexpr double kOn = 1e-12;   // radians as seen from the eye
 
 class Clipper {
  public:
-  Clipper(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv) : wedge_(wedge), map_(map), net_(net), own_(std::make_unique<OwnPart>()) {
+  Clipper(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv)
+      : wedge_(wedge), map_(map), net_(net), own_(std::make_unique<OwnPart>()) {
     const place::PlacedMesh& mesh = *net.mesh;
     own_->mesh.kind = mesh.kind;
     own_->mesh.name = mesh.name;
     own_->mesh.wall = mesh.wall;
     new_index_.assign(mesh.floor.size(), -1);
-    for (std::size_t i = 0; i < mesh.floor.size(); ++i) given_.push_back(vertex(mesh.floor[i], mesh.z[i], uv[i], static_cast<std::int32_t>(i)));
+    for (std::size_t i = 0; i < mesh.floor.size(); ++i)
+      given_.push_back(vertex(mesh.floor[i], mesh.z[i], uv[i], static_cast<std::int32_t>(i)));
   }
 
   std::unique_ptr<OwnPart> run() {
@@ -71,7 +73,8 @@ class Clipper {
     for (const std::uint32_t id : net_.triangle_edges[triangle]) {
       const auto lies_on = [&](const Vertex& p) {
         const auto& ends = net_.edges[id];
-        return p.given >= 0 ? ends[0] == static_cast<std::uint32_t>(p.given) || ends[1] == static_cast<std::uint32_t>(p.given) : p.edge == static_cast<std::int32_t>(id);
+        return p.given >= 0 ? ends[0] == static_cast<std::uint32_t>(p.given) || ends[1] == static_cast<std::uint32_t>(p.given)
+                            : p.edge == static_cast<std::int32_t>(id);
       };
       if (lies_on(a) && lies_on(b)) return static_cast<std::int32_t>(id);
     }
@@ -95,7 +98,8 @@ class Clipper {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vertex &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
       if (a.value[border] >= 0) inside.push_back(a);
-      if ((a.value[border] < 0 && b.value[border] > 0) || (a.value[border] > 0 && b.value[border] < 0)) inside.push_back(cut(a, b, border, triangle));
+      if ((a.value[border] < 0 && b.value[border] > 0) || (a.value[border] > 0 && b.value[border] < 0))
+        inside.push_back(cut(a, b, border, triangle));
     }
     return inside;
   }
@@ -159,7 +163,8 @@ class Clipper {
 InWedge place_in(const Wedge& wedge, const LogMap& map, const PartNet& net, double margin) {
   Ambient seen = map.eye_from_copy * net.centre;
   if (map.sheet % 2 == 1) seen = -1.0 * seen;
-  const double first = geometry::asin_k(map.space, cover::turn(wedge.from, seen)), second = geometry::asin_k(map.space, -cover::turn(wedge.to, seen));
+  const double first = geometry::asin_k(map.space, cover::turn(wedge.from, seen)),
+               second = geometry::asin_k(map.space, -cover::turn(wedge.to, seen));
   const double across = geometry::asin_k(map.space, margin * std::hypot(seen.x, seen.y));
   const double radius = net.radius * (1 + margin + 1e-9) + across + 1e-9;
   if (radius > std::numbers::pi / 2 && map.space == Space::spherical) return InWedge::some;

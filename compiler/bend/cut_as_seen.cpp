@@ -1,10 +1,11 @@
-// Cutting comes after splitting: an edge of a wall that two copies share must be split alike, even if one of them is cut there and the other is not.
+// Cutting comes after splitting: an edge of a wall that two copies share must be split alike, even if one of them is cut there and the
+// other is not.
 //
-// After bending rays from the eye are straight, and a polyline's rays fill planes. (Before it, a sill is no plane but in E²: the rays through the points of a wall at
-// one height are neither a geodesic surface nor linear in the parts' own coordinates.)
+// After bending rays from the eye are straight, and a polyline's rays fill planes. (Before it, a sill is no plane but in E²: the rays
+// through the points of a wall at one height are neither a geodesic surface nor linear in the parts' own coordinates.)
 //
-// No new vertex depends on the way to it: it lies on an edge and one plane, or on a triangle and the ray in which two planes meet. So neighbouring triangles, and the
-// copies on both sides of a sill, make the same ones.
+// No new vertex depends on the way to it: it lies on an edge and one plane, or on a triangle and the ray in which two planes meet. So
+// neighbouring triangles, and the copies on both sides of a sill, make the same ones.
 #include "compiler/bend/cut_as_seen.h"
 
 #include <algorithm>
@@ -61,7 +62,8 @@ class Planes {
   /// The direction in which two planes meet.
   [[nodiscard]] Vector3 ray(int a, int b) const {
     const Plane *p = &planes[static_cast<std::size_t>(a)], *q = &planes[static_cast<std::size_t>(b)];
-    if (p->sill >= 0 && p->sill == q->sill && p->upright != q->upright) return rays_[static_cast<std::size_t>(p->sill)][static_cast<std::size_t>(p->upright ? p->at : q->at)];
+    if (p->sill >= 0 && p->sill == q->sill && p->upright != q->upright)
+      return rays_[static_cast<std::size_t>(p->sill)][static_cast<std::size_t>(p->upright ? p->at : q->at)];
     const auto key = [](const Plane& plane) { return std::tie(plane.normal.x, plane.normal.y, plane.normal.z); };
     if (key(*q) < key(*p)) std::swap(p, q);
     return cross(p->normal, q->normal);
@@ -188,7 +190,9 @@ class Cutter {
     return inside;
   }
 
-  static bool lies_on_edge(const Vertex& v, int edge) { return v.edge == edge || (v.corner >= 0 && (v.corner == edge || v.corner == (edge + 1) % 3)); }
+  static bool lies_on_edge(const Vertex& v, int edge) {
+    return v.edge == edge || (v.corner >= 0 && (v.corner == edge || v.corner == (edge + 1) % 3));
+  }
 
   [[nodiscard]] Vertex between(const Vertex& a, const Vertex& b, int plane) const {
     for (int edge = 0; edge < 3; ++edge)

@@ -1,9 +1,10 @@
 // Beams go out bounce by bounce, so that a cover that is too large is known with all counts of the bounces before.
 //
-// In one copy all rays of a beam come in through one wall and, the room being convex, each leaves through one other. Seen from a pole outside of the room
-// (the eye; past it, what lies half turns away) the corners from the far end of that wall round to its near end divide the interval: clamped to the interval
-// and kept in order they do so whatever rounding did to them, so the pieces always fill it. Seen from a pole inside (the first room; on S² the copy in which the
-// rays meet again) the whole border is seen, and each ray leaves where it points. Past that pole directions are those of the far side: reversed.
+// In one copy all rays of a beam come in through one wall and, the room being convex, each leaves through one other. Seen from a pole
+// outside of the room (the eye; past it, what lies half turns away) the corners from the far end of that wall round to its near end divide
+// the interval: clamped to the interval and kept in order they do so whatever rounding did to them, so the pieces always fill it. Seen from
+// a pole inside (the first room; on S² the copy in which the rays meet again) the whole border is seen, and each ray leaves where it
+// points. Past that pole directions are those of the far side: reversed.
 #include "compiler/cover/beam.h"
 
 #include <fmt/core.h>
@@ -85,7 +86,12 @@ std::optional<Wedge> common(const Wedge& a, const Wedge& b) {
 class Unfolder {
  public:
   Unfolder(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const Rim& rim)
-      : room_(room), spec_(spec), rim_(rim), eye_z_(eye.z), eye_from_cover_(inverse(eye.room_from_eye)), pixels_(place::pixels_per_radian(eye)) {
+      : room_(room),
+        spec_(spec),
+        rim_(rim),
+        eye_z_(eye.z),
+        eye_from_cover_(inverse(eye.room_from_eye)),
+        pixels_(place::pixels_per_radian(eye)) {
     for (const WeightedStorey& on : storeys_of(room, spec.max_bounces)) {
       lowest_ = std::min(lowest_, on.storey.number * room.height);
       highest_ = std::max(highest_, (on.storey.number + 1) * room.height);
@@ -146,11 +152,13 @@ class Unfolder {
   /// Bit i: wall i faces the rays that come from `pole`.
   [[nodiscard]] std::uint64_t facing(const Ambient& pole) const {
     std::uint64_t walls = 0;
-    for (std::size_t i = 0; i < room_.room.walls.size() && i < 64; ++i) walls |= value_at(room_.room.walls[i].line, pole) < 0 ? std::uint64_t{1} << i : 0;
+    for (std::size_t i = 0; i < room_.room.walls.size() && i < 64; ++i)
+      walls |= value_at(room_.room.walls[i].line, pole) < 0 ? std::uint64_t{1} << i : 0;
     return walls;
   }
   [[nodiscard]] bool inside(const Ambient& pole) const {
-    return std::all_of(room_.room.walls.begin(), room_.room.walls.end(), [&](const room::Wall& wall) { return value_at(wall.line, pole) > 0; });
+    return std::all_of(room_.room.walls.begin(), room_.room.walls.end(),
+                       [&](const room::Wall& wall) { return value_at(wall.line, pole) > 0; });
   }
 
   void follow(const Beam& beam, int bounces, bool further, std::vector<Beam>& out) {
@@ -174,7 +182,8 @@ class Unfolder {
     for (std::size_t i = 0; i < rim_.edges.size(); ++i) {
       if (rim_.edges[i].openings.empty()) continue;
       const Bearing &a = bearings[i], &b = bearings[(i + 1) % bearings.size()];
-      if (const auto wedge = common(beam.wedge, clockwise ? Wedge{b, a} : Wedge{a, b})) go_on(beam, static_cast<int>(i), *wedge, sheet, out);
+      if (const auto wedge = common(beam.wedge, clockwise ? Wedge{b, a} : Wedge{a, b}))
+        go_on(beam, static_cast<int>(i), *wedge, sheet, out);
     }
   }
 
@@ -214,7 +223,8 @@ class Unfolder {
       if (through.openings.size() > 1 || !sills.empty()) {
         const Isometry eye_from_copy = eye_from_cover_ * beam.cover_from_room;
         const Sill wall{eye_from_copy * room_.room.walls[static_cast<std::size_t>(through.wall)].line, sheet, 0, false};
-        const Sill low = at_height(wall, std::max(opening.from, lowest_), true), high = at_height(wall, std::min(opening.to, highest_), false);
+        const Sill low = at_height(wall, std::max(opening.from, lowest_), true),
+                   high = at_height(wall, std::min(opening.to, highest_), false);
         if (nothing_passes(room_.room.space, sills, low, high, wedge, eye_z_)) continue;
         if (opening.from > lowest_) narrow(sills, low, eye_z_);
         if (opening.to < highest_) narrow(sills, high, eye_z_);
@@ -354,7 +364,8 @@ class Unfolder {
 
 }  // namespace
 
-Result<std::vector<Copy>> unfold_by_beams(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const BeamOptions& options) {
+Result<std::vector<Copy>> unfold_by_beams(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+                                          const BeamOptions& options) {
   const Rim rim = make_rim(room, spec.max_bounces);
   return Unfolder(room, eye, spec, rim).run(options);
 }

@@ -147,7 +147,8 @@ Plan empty_plan(const place::PlacedRoom& room) {
 }
 
 std::uint64_t bytes_per_copy(const Plan& plan) {
-  return static_cast<std::uint64_t>(kBytesPerVertex * static_cast<double>(plan.room_vertices) + kBytesPerTriangle * static_cast<double>(plan.room_triangles) + kBytesPerCopy);
+  return static_cast<std::uint64_t>(kBytesPerVertex * static_cast<double>(plan.room_vertices) +
+                                    kBytesPerTriangle * static_cast<double>(plan.room_triangles) + kBytesPerCopy);
 }
 
 void take(Counts counts, Plan& plan) {

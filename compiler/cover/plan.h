@@ -18,8 +18,8 @@ struct PlanOptions {
 /// What a product takes, without the pictures.
 constexpr double kBytesPerVertex = 20, kBytesPerTriangle = 12, kBytesPerCopy = 200;
 
-/// What compiling a scene will make. Of the cover alone (here) every copy counts with all triangles of the room, unsplit; what bending really makes of the
-/// copies is foreseen by driver/estimate.h.
+/// What compiling a scene will make. Of the cover alone (here) every copy counts with all triangles of the room, unsplit; what bending
+/// really makes of the copies is foreseen by driver/estimate.h.
 struct Plan {
   Integer copies;                           ///< exact
   std::vector<Integer> copies_per_bounces;  ///< 0 … the last bounce that has copies
@@ -29,16 +29,19 @@ struct Plan {
 };
 
 /// Plans a scene before it is unfolded: how many copies.
-/// Makes:       the number of copies from the growth series, or counted one by one where sizes or plain walls cut the group; copies that need beams are unfolded once.
+/// Makes:       the number of copies from the growth series, or counted one by one where sizes or plain walls cut the group; copies that
+///              need beams are unfolded once.
 /// Exact:       copies.
 /// Diagnostics: those of `unfold`; cover.too-much when the product would exceed `max_bytes`: the hint names
 ///              the largest max_bounces that fits.
-[[nodiscard]] Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options = {});
+[[nodiscard]] Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+                                const PlanOptions& options = {});
 
 /// The same of copies that are unfolded already.
 [[nodiscard]] Plan plan_of(const std::vector<Copy>& copies, const place::PlacedRoom& room);
 
 /// The error of a cover with more than `most` copies.
-[[nodiscard]] Diagnostic too_many_copies(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, std::uint64_t most);
+[[nodiscard]] Diagnostic too_many_copies(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+                                         std::uint64_t most);
 
 }  // namespace orbc::cover

@@ -1,6 +1,7 @@
 // Cut-offs that unfold and plan share. Size in the picture: a copy is the room's circumscribed circle times its height; at distance d it is
 // 2·asin(sinκ R / sinκ d) wide. A word goes on only behind the mirrors it has passed (a reduced word crosses each of them for good), so
-// a subtree may be left out as soon as a copy at the distance of the last mirror would be too small. On S² nothing gets small, and nothing is left out before its visit.
+// a subtree may be left out as soon as a copy at the distance of the last mirror would be too small. On S² nothing gets small, and nothing
+// is left out before its visit.
 #include "compiler/cover/reach.h"
 
 #include <algorithm>
@@ -35,8 +36,10 @@ double size_in_picture(const place::PlacedRoom& room, double eye_z, double pixel
 Result<Reach> reach_of(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec) {
   const auto& orbifold = room.room.orbifold;
   if (!std::all_of(orbifold.corners.begin(), orbifold.corners.end(), is_integer)) {
-    return make_error("cover.not-an-orbifold", "the copies of this room overlap: a corner is no π/k with an integer k, so each copy is seen only through its chain of mirrors",
-                      "draw it with the tracer, or use integer corners");
+    return make_error(
+        "cover.not-an-orbifold",
+        "the copies of this room overlap: a corner is no π/k with an integer k, so each copy is seen only through its chain of mirrors",
+        "draw it with the tracer, or use integer corners");
   }
   Reach reach;
   if (orbifold.strip) {
@@ -88,7 +91,9 @@ int bounces_on(const Reach& reach, int length, int sheet) {
 void walk_reach(const Reach& reach, const place::PlacedRoom& room, const place::Eye& eye,
                 const std::function<Walk(const Element&, const Isometry&)>& visit) {
   // Later sheets need the whole group, whatever its bounces on sheet 0.
-  const int longest = reach.sheets > 1 ? reach.half_turn : reach.half_turn > 0 ? std::min(reach.half_turn, reach.max_bounces) : reach.max_bounces;
+  const int longest = reach.sheets > 1      ? reach.half_turn
+                      : reach.half_turn > 0 ? std::min(reach.half_turn, reach.max_bounces)
+                                            : reach.max_bounces;
   if (std::find(reach.open.begin(), reach.open.end(), true) == reach.open.end()) {
     visit(Element{}, geometry::identity(room.room.space));
     return;

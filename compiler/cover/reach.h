@@ -25,10 +25,10 @@ struct Reach {
 /// Diagnostics: cover.mixed-mirrors, cover.not-an-orbifold: these need beams (beam.h).
 [[nodiscard]] Result<Reach> reach_of(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec);
 
-/// Visits every copy within reach of sheet 0 in the order of `enumerate`; visit(element, cover_from_room) → Walk. Copies behind plain walls and,
-/// conservatively, subtrees below `min_pixels` are passed over.
-/// Why plain walls bar a wall's letter altogether: two reduced words of one element have the same letters (Tits), so whatever straight path leads to a copy whose
-/// word has the letter crosses an image of that wall.
+/// Visits every copy within reach of sheet 0 in the order of `enumerate`; visit(element, cover_from_room) → Walk. Copies behind plain walls
+/// and, conservatively, subtrees below `min_pixels` are passed over.
+/// Why plain walls bar a wall's letter altogether: two reduced words of one element have the same letters (Tits), so whatever straight path
+/// leads to a copy whose word has the letter crosses an image of that wall.
 void walk_reach(const Reach& reach, const place::PlacedRoom& room, const place::Eye& eye,
                 const std::function<Walk(const Element&, const geometry::Isometry&)>& visit);
 

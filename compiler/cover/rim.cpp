@@ -39,7 +39,8 @@ void append(std::vector<Pane>& panes, const Pane& pane) {
 std::vector<Pane> panes_at(const place::PlacedRoom& room, int wall, double s, std::vector<scene::Color>& losses) {
   std::vector<double> heights;
   for (const place::PlacedMirror& mirror : room.mirrors)
-    if (mirror.wall == wall && mirror.span[0] < s && s < mirror.span[1]) heights.insert(heights.end(), {mirror.height[0], mirror.height[1]});
+    if (mirror.wall == wall && mirror.span[0] < s && s < mirror.span[1])
+      heights.insert(heights.end(), {mirror.height[0], mirror.height[1]});
   std::sort(heights.begin(), heights.end());
   std::vector<Pane> panes;
   for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
@@ -52,7 +53,8 @@ std::vector<Pane> panes_at(const place::PlacedRoom& room, int wall, double s, st
 
 /// The panes on all storeys; z ↦ sign·z + offset turns every other one upside down.
 std::vector<Pane> on_storeys(const std::vector<Pane>& panes, std::vector<WeightedStorey> storeys) {
-  std::sort(storeys.begin(), storeys.end(), [](const WeightedStorey& a, const WeightedStorey& b) { return a.storey.number < b.storey.number; });
+  std::sort(storeys.begin(), storeys.end(),
+            [](const WeightedStorey& a, const WeightedStorey& b) { return a.storey.number < b.storey.number; });
   std::vector<Pane> all;
   for (const WeightedStorey& on : storeys) {
     const auto lifted = [&](double z) { return on.storey.sign * z + on.storey.offset; };
@@ -70,7 +72,8 @@ std::vector<Opening> openings_at(const place::PlacedRoom& room, int wall, double
   if (panes.size() > 1) panes = on_storeys(panes, storeys_of(room, max_bounces));
   std::vector<Opening> openings;
   for (const Pane& pane : panes) openings.push_back({pane.loss});
-  for (std::size_t i = 0; i + 1 < panes.size(); ++i) openings[i].to = openings[i + 1].from = panes[i].high + (panes[i + 1].low - panes[i].high) / 2;
+  for (std::size_t i = 0; i + 1 < panes.size(); ++i)
+    openings[i].to = openings[i + 1].from = panes[i].high + (panes[i + 1].low - panes[i].high) / 2;
   return openings;
 }
 

@@ -1,5 +1,5 @@
-// Systematic sampling in the order of distance, with a chance proportional to a guess of what is drawn: the triangles of the parts that a wedge meets. Where the guess
-// is right but for a factor that changes slowly with the distance, so is the estimate.
+// Systematic sampling in the order of distance, with a chance proportional to a guess of what is drawn: the triangles of the parts that a
+// wedge meets. Where the guess is right but for a factor that changes slowly with the distance, so is the estimate.
 #include "compiler/cover/sample.h"
 
 #include <algorithm>
@@ -26,7 +26,8 @@ Disk disk_of(Space space, const place::PlacedMesh& mesh) {
   disk.wall = mesh.kind == place::PartKind::wall ? mesh.wall : -1;
   Ambient sum{0, 0, 0};
   for (const geometry::Point& p : mesh.floor) sum = sum + p;
-  if (!mesh.floor.empty() && (space != Space::spherical || sum.w * sum.w + sum.x * sum.x + sum.y * sum.y > 1e-6)) disk.centre = geometry::normalised_point(space, sum);
+  if (!mesh.floor.empty() && (space != Space::spherical || sum.w * sum.w + sum.x * sum.x + sum.y * sum.y > 1e-6))
+    disk.centre = geometry::normalised_point(space, sum);
   for (const geometry::Point& p : mesh.floor) disk.radius = std::max(disk.radius, geometry::distance(space, disk.centre, p));
   return disk;
 }
@@ -68,7 +69,8 @@ std::vector<Sample> sample_of(const std::vector<Copy>& copies, const place::Plac
     const auto eye_from_copy = eye_from_cover * copy.cover_from_room;
     const Ambient centre = eye_from_copy * geometry::Point();
     Guess guess{geometry::arc_k(space, centre.w, std::hypot(centre.x, centre.y)), 0.02 * whole + 1, i};
-    if (copy.sheet > 0) guess.distance = copy.sheet * std::numbers::pi + (copy.sheet % 2 == 1 ? std::numbers::pi - guess.distance : guess.distance);
+    if (copy.sheet > 0)
+      guess.distance = copy.sheet * std::numbers::pi + (copy.sheet % 2 == 1 ? std::numbers::pi - guess.distance : guess.distance);
     for (const Disk& disk : disks) {
       if (disk.wall >= 0 && disk.wall < 64 && ((copy.nearer_walls >> disk.wall) & 1)) continue;
       Ambient seen = eye_from_copy * disk.centre;
@@ -77,7 +79,8 @@ std::vector<Sample> sample_of(const std::vector<Copy>& copies, const place::Plac
     }
     guesses.push_back(guess);
   }
-  std::sort(guesses.begin(), guesses.end(), [](const Guess& a, const Guess& b) { return std::tie(a.distance, a.copy) < std::tie(b.distance, b.copy); });
+  std::sort(guesses.begin(), guesses.end(),
+            [](const Guess& a, const Guess& b) { return std::tie(a.distance, a.copy) < std::tie(b.distance, b.copy); });
   const std::size_t nearest = most / 4;
   double all = 0;
   for (std::size_t i = nearest; i < guesses.size(); ++i) all += guesses[i].triangles;

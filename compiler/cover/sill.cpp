@@ -1,4 +1,5 @@
-// Slopes: a ray of slope m is at height eye_z + m·s after arc length s, whatever the space, so it passes above a sill when m exceeds the sill's slope.
+// Slopes: a ray of slope m is at height eye_z + m·s after arc length s, whatever the space, so it passes above a sill when m exceeds the
+// sill's slope.
 #include "compiler/cover/sill.h"
 
 #include <algorithm>
@@ -54,7 +55,8 @@ void narrow(std::vector<Sill>& sills, const Sill& next, double eye_z) {
   sills.erase(std::remove_if(sills.begin(), sills.end(),
                              [&](const Sill& known) {
                                if (known.above != next.above) return false;
-                               return next.above ? steeper(next.z - eye_z, known.z - eye_z, false) : steeper(known.z - eye_z, next.z - eye_z, true);
+                               return next.above ? steeper(next.z - eye_z, known.z - eye_z, false)
+                                                 : steeper(known.z - eye_z, next.z - eye_z, true);
                              }),
               sills.end());
   sills.push_back(next);

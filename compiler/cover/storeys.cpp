@@ -42,7 +42,8 @@ std::vector<WeightedStorey> storeys_of(const place::PlacedRoom& room, int max_bo
   return storeys;
 }
 
-Result<std::vector<Copy>> stacked(const std::vector<Copy>& copies, const place::PlacedRoom& room, const scene::CoverSpec& spec, std::uint64_t max_copies) {
+Result<std::vector<Copy>> stacked(const std::vector<Copy>& copies, const place::PlacedRoom& room, const scene::CoverSpec& spec,
+                                  std::uint64_t max_copies) {
   const std::vector<WeightedStorey> storeys = storeys_of(room, std::max(0, spec.max_bounces));
   std::vector<std::vector<Copy>> by_bounces(static_cast<std::size_t>(std::max(0, spec.max_bounces)) + 1);
   const auto bounces_of = [](const Copy& copy, const WeightedStorey& s) { return copy.bounces + std::abs(s.storey.number); };
@@ -62,8 +63,10 @@ Result<std::vector<Copy>> stacked(const std::vector<Copy>& copies, const place::
       sum += counts[static_cast<std::size_t>(fits)];
       if (sum + counts[static_cast<std::size_t>(fits) + 1] > max_copies) break;
     }
-    return make_error("cover.too-much", fmt::format("max_bounces: {} makes {} copies on {} storeys, {} are allowed", spec.max_bounces, count, storeys.size(), max_copies),
-                      fmt::format("max_bounces: {} fits", fits));
+    return make_error(
+        "cover.too-much",
+        fmt::format("max_bounces: {} makes {} copies on {} storeys, {} are allowed", spec.max_bounces, count, storeys.size(), max_copies),
+        fmt::format("max_bounces: {} fits", fits));
   }
   for (std::size_t b = 0; b < counts.size(); ++b) by_bounces[b].reserve(counts[b]);
   for (const Copy& copy : copies) {

@@ -23,7 +23,7 @@ struct WeightedStorey {
 /// Puts every copy on every storey: bounces add up, weights multiply, whatever the order in which a ray meets walls, floors and ceilings.
 /// Makes:       copies by bounces; within one number of bounces the order given, then by storey.
 /// Diagnostics: cover.too-much beyond `max_copies`.
-[[nodiscard]] Result<std::vector<Copy>> stacked(const std::vector<Copy>& copies, const place::PlacedRoom& room, const scene::CoverSpec& spec,
-                                                std::uint64_t max_copies);
+[[nodiscard]] Result<std::vector<Copy>> stacked(const std::vector<Copy>& copies, const place::PlacedRoom& room,
+                                                const scene::CoverSpec& spec, std::uint64_t max_copies);
 
 }  // namespace orbc::cover

@@ -1,4 +1,5 @@
-// The stream of enumerate.h comes depth first, so words of one length come in their order: one bucket for each number of bounces sorts them.
+// The stream of enumerate.h comes depth first, so words of one length come in their order: one bucket for each number of bounces sorts
+// them.
 #include "compiler/cover/unfold.h"
 
 #include <algorithm>
@@ -28,7 +29,8 @@ Copy copy_of(const Reach& reach, const Element& element, const geometry::Isometr
   return copy;
 }
 
-Result<std::vector<Copy>> unfold_by_group(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const UnfoldOptions& options) {
+Result<std::vector<Copy>> unfold_by_group(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+                                          const UnfoldOptions& options) {
   auto reach = reach_of(room, eye, spec);
   if (!reach) return reach.error();
   std::vector<std::vector<Copy>> by_bounces(static_cast<std::size_t>(reach->max_bounces) + 1);
@@ -55,9 +57,11 @@ Result<std::vector<Copy>> unfold_by_group(const place::PlacedRoom& room, const p
 
 }  // namespace
 
-Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const UnfoldOptions& options) {
-  auto copies = needs_beams(room) ? unfold_by_beams(room, eye, spec, {std::min(options.max_copies, BeamOptions().max_beams), options.progress})
-                                  : unfold_by_group(room, eye, spec, options);
+Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+                                 const UnfoldOptions& options) {
+  auto copies = needs_beams(room)
+                    ? unfold_by_beams(room, eye, spec, {std::min(options.max_copies, BeamOptions().max_beams), options.progress})
+                    : unfold_by_group(room, eye, spec, options);
   if (!copies || !has_storeys(room)) return copies;
   return stacked(std::move(copies).value(), room, spec, options.max_copies);
 }

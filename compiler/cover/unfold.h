@@ -15,8 +15,9 @@ struct UnfoldOptions {
   Progress progress;
 };
 
-/// Unfolds a room: every copy that the cut-offs leave; on S² also those seen around the sphere, sheet by sheet; with mirrors on floor or ceiling storey by storey.
-/// Rooms of orbifolds whose walls' mirrors are all alike go by the group, each copy once and whole; all others by the eye's beams (beam.h), cut to wedges.
+/// Unfolds a room: every copy that the cut-offs leave; on S² also those seen around the sphere, sheet by sheet; with mirrors on floor or
+/// ceiling storey by storey. Rooms of orbifolds whose walls' mirrors are all alike go by the group, each copy once and whole; all others by
+/// the eye's beams (beam.h), cut to wedges.
 /// In:          any convex room; plain walls and mirrors that leave part of a wall are fine: what is behind them is hidden.
 /// Makes:       copies by bounces, then sheet, then word; the room itself first. Memory grows with the output only.
 /// Exact:       words and their number (no float decides); `min_pixels` is measured: the smaller extent of the room's circumscribed

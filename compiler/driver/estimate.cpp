@@ -16,8 +16,8 @@ double bytes_of(double vertices, double triangles) { return cover::kBytesPerVert
 
 }  // namespace
 
-Result<cover::Plan> estimate(const place::PlacedRoom& room, const place::Eye& eye, const std::vector<cover::Copy>& copies, int max_bounces, std::uint64_t max_bytes,
-                             const BendSome& bend_some, std::uint64_t most_triangles) {
+Result<cover::Plan> estimate(const place::PlacedRoom& room, const place::Eye& eye, const std::vector<cover::Copy>& copies, int max_bounces,
+                             std::uint64_t max_bytes, const BendSome& bend_some, std::uint64_t most_triangles) {
   cover::Plan plan = cover::plan_of(copies, room);
   const std::size_t most = std::clamp<std::size_t>(most_triangles / std::max<std::uint64_t>(1, plan.room_triangles), kFewest, kMost);
   const std::vector<cover::Sample> samples = cover::sample_of(copies, room, eye, most);
@@ -30,7 +30,8 @@ Result<cover::Plan> estimate(const place::PlacedRoom& room, const place::Eye& ey
   for (std::size_t b = 0; b < bytes.size(); ++b) bytes[b] = cover::kBytesPerCopy * static_cast<double>(plan.copies_per_bounces[b]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const bend::BentRange& range = bent->copies[i];
-    const double v = samples[i].stands_for * static_cast<double>(range.vertex_count), t = samples[i].stands_for * static_cast<double>(range.index_count) / 3;
+    const double v = samples[i].stands_for * static_cast<double>(range.vertex_count),
+                 t = samples[i].stands_for * static_cast<double>(range.index_count) / 3;
     vertices += v;
     triangles += t;
     bytes[static_cast<std::size_t>(copies[samples[i].copy].bounces)] += bytes_of(v, t);
@@ -45,9 +46,12 @@ Result<cover::Plan> estimate(const place::PlacedRoom& room, const place::Eye& ey
   }
   plan.bytes = static_cast<std::uint64_t>(std::llround(sum));
   if (sum > static_cast<double>(max_bytes)) {
-    return make_error("cover.too-much", fmt::format("max_bounces: {} needs about {} MiB, as much again for the file that is made of it, and {} MiB are allowed", max_bounces,
-                                  (plan.bytes >> 20) + 1, max_bytes >> 19),
-                      fits < 0 ? std::string("not even the room itself fits: use coarser meshes or allow more memory") : fmt::format("max_bounces: {} fits", fits));
+    return make_error(
+        "cover.too-much",
+        fmt::format("max_bounces: {} needs about {} MiB, as much again for the file that is made of it, and {} MiB are allowed",
+                    max_bounces, (plan.bytes >> 20) + 1, max_bytes >> 19),
+        fits < 0 ? std::string("not even the room itself fits: use coarser meshes or allow more memory")
+                 : fmt::format("max_bounces: {} fits", fits));
   }
   return plan;
 }

@@ -83,7 +83,8 @@ TilePath gnomonic_sphere_path(const Page& page, const std::vector<Piece>& pieces
 
 bool holds_antipode(const std::vector<Piece>& pieces, const geometry::Isometry& cover_from_room) {
   const geometry::Ambient antipode{-1, 0, 0};
-  return std::all_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return value_at(cover_from_room * piece.line, antipode) > 0; });
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [&](const Piece& piece) { return value_at(cover_from_room * piece.line, antipode) > 0; });
 }
 
 }  // namespace
@@ -110,7 +111,8 @@ std::vector<Piece> outline_pieces(const room::Room& room) {
 
 namespace {
 
-/// The pieces to the left of a line (Sutherland and Hodgman, 1974), closed along it. Convex rooms: the border goes out once and comes in once.
+/// The pieces to the left of a line (Sutherland and Hodgman, 1974), closed along it. Convex rooms: the border goes out once and comes in
+/// once.
 std::vector<Piece> left_of(Space space, const std::vector<Piece>& pieces, const Line& line) {
   const auto inside = [&](const Point& p) { return value_at(line, p) >= 0; };
   std::vector<Piece> kept;
@@ -137,7 +139,8 @@ std::vector<Piece> left_of(Space space, const std::vector<Piece>& pieces, const 
 
 }  // namespace
 
-std::vector<Piece> seen_pieces(Space space, const std::vector<Piece>& pieces, const cover::Copy& copy, const geometry::Isometry& room_from_eye) {
+std::vector<Piece> seen_pieces(Space space, const std::vector<Piece>& pieces, const cover::Copy& copy,
+                               const geometry::Isometry& room_from_eye) {
   std::vector<Piece> seen;
   for (const Piece& p : pieces) {
     const auto& map = copy.cover_from_room;
@@ -188,7 +191,8 @@ Page make_page(const driver::Tiling& tiling, const std::vector<Piece>& pieces, d
   const double aspect = std::clamp(box.size(1) / box.size(0), 0.25, 2.0);
   page.height = width * aspect;
   page.scale = std::min((width - 2 * kMargin) / box.size(0), (page.height - 2 * kMargin) / box.size(1));
-  page.middle = Complex(width, page.height) / 2.0 - page.scale * std::conj(Complex(box.low[0] + box.high[0], box.low[1] + box.high[1]) / 2.0);
+  page.middle =
+      Complex(width, page.height) / 2.0 - page.scale * std::conj(Complex(box.low[0] + box.high[0], box.low[1] + box.high[1]) / 2.0);
   return page;
 }
 
@@ -213,9 +217,11 @@ TilePath tile_path(const Page& page, const std::vector<Piece>& pieces, const geo
   if (page.space == Space::spherical) {
     const double rim = page.scale * page.frame;
     if (holds_antipode(pieces, cover_from_room)) {
-      const std::string r = coordinate(1.01 * rim), left = coordinate(page.middle.real() - 1.01 * rim), right = coordinate(page.middle.real() + 1.01 * rim);
+      const std::string r = coordinate(1.01 * rim), left = coordinate(page.middle.real() - 1.01 * rim),
+                        right = coordinate(page.middle.real() + 1.01 * rim);
       const std::string y = coordinate(page.middle.imag());
-      tile.d += 'M' + left + ' ' + y + 'A' + r + ' ' + r + " 0 0 1 " + right + ' ' + y + 'A' + r + ' ' + r + " 0 0 1 " + left + ' ' + y + 'Z';
+      tile.d +=
+          'M' + left + ' ' + y + 'A' + r + ' ' + r + " 0 0 1 " + right + ' ' + y + 'A' + r + ' ' + r + " 0 0 1 " + left + ' ' + y + 'Z';
       tile.diameter = 2 * rim;
     } else if (nearest > 3 * rim) {
       return {};

@@ -27,7 +27,8 @@ struct Piece {
 
 /// The pieces of a copy, in the cover, cut to its wedge: what an eye at `room_from_eye` sees of it there. Nothing when that is nothing.
 /// In: the pieces of the room; a copy of sheet 0.
-[[nodiscard]] std::vector<Piece> seen_pieces(geometry::Space space, const std::vector<Piece>& pieces, const cover::Copy& copy, const geometry::Isometry& room_from_eye);
+[[nodiscard]] std::vector<Piece> seen_pieces(geometry::Space space, const std::vector<Piece>& pieces, const cover::Copy& copy,
+                                             const geometry::Isometry& room_from_eye);
 
 /// Fits the tiling on a page `width` wide. `pieces` are those of its room.
 [[nodiscard]] Page make_page(const driver::Tiling& tiling, const std::vector<Piece>& pieces, double width);
@@ -43,8 +44,8 @@ struct TilePath {
 
 /// In:      the pieces of the room and where the copy lies.
 /// Formula: in the conformal chart the line (w, l) is the circle about l/(κw) with radius 1/|w|.
-/// Makes:   arcs (`A`) where they bulge by more than 1/50 unit, else straight lines. The copy of S² that holds the antipode of the origin becomes
-///          the frame minus its outline (fill rule evenodd).
+/// Makes:   arcs (`A`) where they bulge by more than 1/50 unit, else straight lines. The copy of S² that holds the antipode of the origin
+///          becomes the frame minus its outline (fill rule evenodd).
 [[nodiscard]] TilePath tile_path(const Page& page, const std::vector<Piece>& pieces, const geometry::Isometry& cover_from_room);
 
 /// A page coordinate: three digits after the point, no trailing zeros.

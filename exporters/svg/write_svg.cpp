@@ -1,5 +1,5 @@
-// Copies are grouped by colour and by the width of their seams, which shrinks with the copy, so that far copies do not drown in lines. Groups
-// carry the attributes (no style sheet: several pictures in one web page must not disturb each other).
+// Copies are grouped by colour and by the width of their seams, which shrinks with the copy, so that far copies do not drown in lines.
+// Groups carry the attributes (no style sheet: several pictures in one web page must not disturb each other).
 #include "exporters/svg/write_svg.h"
 
 #include <algorithm>
@@ -116,14 +116,16 @@ void write_groups(std::string& out, const std::map<std::pair<std::string, int>, 
 
 /// A text with a halo of paper around it.
 std::string text_at(Complex at, double size, const char* attributes, const std::string& text) {
-  return "<text" + attribute("x", at.real()) + attribute("y", at.imag() + 0.35 * size) + attribute("font-size", size) + attributes + ">" + text + "</text>\n";
+  return "<text" + attribute("x", at.real()) + attribute("y", at.imag() + 0.35 * size) + attribute("font-size", size) + attributes + ">" +
+         text + "</text>\n";
 }
 
 void write_labels(std::string& out, const Tiling& tiling, const Page& page) {
   const room::Room& room = tiling.room;
   if (page.straight && room.space == Space::spherical && room.circumradius > 1.1) return;  // corners beyond the frame
   std::vector<Complex> corners;
-  for (std::size_t i = 0; i < room.corners.size() && i < room.orbifold.corners.size(); ++i) corners.push_back(on_page(page, room.corners[i].at));
+  for (std::size_t i = 0; i < room.corners.size() && i < room.orbifold.corners.size(); ++i)
+    corners.push_back(on_page(page, room.corners[i].at));
   // As large as the closest corners allow, and never larger than the room.
   double gap = 0.9 * page.width;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i)
@@ -143,7 +145,8 @@ void write_labels(std::string& out, const Tiling& tiling, const Page& page) {
     out += text_at(at + (away > 4 * size ? 0.95 : -0.8) * size * inward, 0.9 * size, "", std::to_string(i + 1));
   }
   out += "</g>\n<g fill=\"" + std::string(kPaper) + "\" stroke=\"" + kInk + "\"" + attribute("stroke-width", 0.09 * radius) + ">\n";
-  for (const Complex& at : corners) out += "<circle" + attribute("cx", at.real()) + attribute("cy", at.imag()) + attribute("r", radius) + "/>\n";
+  for (const Complex& at : corners)
+    out += "<circle" + attribute("cx", at.real()) + attribute("cy", at.imag()) + attribute("r", radius) + "/>\n";
   out += "</g>\n<g fill=\"" + std::string(kInk) + "\" font-weight=\"bold\">\n";
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::string order = to_string(room.orbifold.corners[i]);
@@ -153,7 +156,8 @@ void write_labels(std::string& out, const Tiling& tiling, const Page& page) {
 }
 
 std::string circle(const Page& page, double chart_radius, const std::string& attributes) {
-  return "<circle" + attribute("cx", page.middle.real()) + attribute("cy", page.middle.imag()) + attribute("r", page.scale * chart_radius) + attributes + "/>\n";
+  return "<circle" + attribute("cx", page.middle.real()) + attribute("cy", page.middle.imag()) + attribute("r", page.scale * chart_radius) +
+         attributes + "/>\n";
 }
 
 }  // namespace
@@ -167,31 +171,40 @@ std::vector<driver::File> write_svg(const Tiling& tiling, const SvgOptions& opti
   const double height = page.height + (options.labels ? kCaption - 12 : 0);
 
   std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"";
-  out += attribute("width", page.width) + attribute("height", height) + " viewBox=\"0 0 " + coordinate(page.width) + " " + coordinate(height) + "\" role=\"img\">\n";
-  out += "<title>" + escaped(tiling.title) + "</title>\n<desc>The mirror room " + escaped(tiling.title) + " and its " + std::to_string(tiles.size()) +
-         " drawn copies; " + chart_name(tiling) + ". The room itself is orange" +
+  out += attribute("width", page.width) + attribute("height", height) + " viewBox=\"0 0 " + coordinate(page.width) + " " +
+         coordinate(height) + "\" role=\"img\">\n";
+  out += "<title>" + escaped(tiling.title) + "</title>\n<desc>The mirror room " + escaped(tiling.title) + " and its " +
+         std::to_string(tiles.size()) + " drawn copies; " + chart_name(tiling) + ". The room itself is orange" +
          (tiling.colouring == Tiling::Colouring::parity ? ", mirror images are dark, their mirror images light"
-                                                       : ", copies are coloured by the number of mirrors on the way to them") +
-         (std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.copy->wedge.has_value(); }) ? ", copies are cut to what the eye sees of them" : "") +
+                                                        : ", copies are coloured by the number of mirrors on the way to them") +
+         (std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.copy->wedge.has_value(); })
+              ? ", copies are cut to what the eye sees of them"
+              : "") +
          (options.labels ? ". Circles hold the orders of the corners, italic numbers count the walls" : "") + ".</desc>\n";
   out += "<rect width=\"100%\" height=\"100%\" fill=\"" + std::string(kPaper) + "\"/>\n";
   if (framed) {
     out += "<clipPath id=\"" + clip + "\">" + circle(page, page.frame, "") + "</clipPath>\n";
     out += circle(page, page.frame, " fill=\"" + haze(tiling.colouring) + "\"");
   }
-  out += "<g stroke=\"" + std::string(kPaper) + "\" stroke-linejoin=\"round\" fill-rule=\"evenodd\"" + (framed ? " clip-path=\"url(#" + clip + ")\"" : "") + ">\n";
+  out += "<g stroke=\"" + std::string(kPaper) + "\" stroke-linejoin=\"round\" fill-rule=\"evenodd\"" +
+         (framed ? " clip-path=\"url(#" + clip + ")\"" : "") + ">\n";
   write_groups(out, grouped(tiles, tiling, options.tooltips));
   for (const Tile& tile : tiles)
     if (tile.copy->word.empty())
-      out += "<path d=\"" + tile.path.d + "\" fill=\"none\" stroke=\"" + kInk + "\"" + attribute("stroke-width", std::clamp(0.012 * tile.path.diameter, 0.8, 2.4)) + "/>\n";
+      out += "<path d=\"" + tile.path.d + "\" fill=\"none\" stroke=\"" + kInk + "\"" +
+             attribute("stroke-width", std::clamp(0.012 * tile.path.diameter, 0.8, 2.4)) + "/>\n";
   out += "</g>\n";
   if (framed) out += circle(page, page.frame, " fill=\"none\" stroke=\"" + std::string(kInk) + "\" stroke-width=\"1.6\"");
   if (tiling.room.space == Space::spherical && !page.straight)
-    out += circle(page, 1, " fill=\"none\" stroke=\"" + std::string(kInk) + "\" stroke-width=\"1.1\" stroke-dasharray=\"2 5\" stroke-linecap=\"round\"");
+    out += circle(
+        page, 1,
+        " fill=\"none\" stroke=\"" + std::string(kInk) + "\" stroke-width=\"1.1\" stroke-dasharray=\"2 5\" stroke-linecap=\"round\"");
   if (options.labels) {
     write_labels(out, tiling, page);
-    out += "<text" + attribute("x", page.width / 2) + attribute("y", height - 12) + " text-anchor=\"middle\" font-family=\"Georgia, 'Times New Roman', serif\" font-size=\"19\" fill=\"" +
-           kInk + "\"><tspan font-weight=\"bold\">" + escaped(tiling.title) + "</tspan><tspan dx=\"8\" fill-opacity=\"0.7\">— " + chart_name(tiling) + "</tspan></text>\n";
+    out += "<text" + attribute("x", page.width / 2) + attribute("y", height - 12) +
+           " text-anchor=\"middle\" font-family=\"Georgia, 'Times New Roman', serif\" font-size=\"19\" fill=\"" + kInk +
+           "\"><tspan font-weight=\"bold\">" + escaped(tiling.title) + "</tspan><tspan dx=\"8\" fill-opacity=\"0.7\">— " +
+           chart_name(tiling) + "</tspan></text>\n";
   }
   out += "</svg>\n";
   std::vector<driver::File> files;

@@ -33,8 +33,10 @@ void move_eye(driver::Opened& opened, std::mt19937& random, int width, int heigh
     const auto eye = place::make_eye(scene, room);
     if (!eye) continue;
     opened.eye = *eye;
-    const double yaw = 2 * M_PI * unit(random), pitch = std::asin(1.9 * unit(random) - 0.95) * unit(random), roll = unit(random) < 0.5 ? 0 : 6 * unit(random);
-    const Vector3 forward{std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)}, level{std::sin(yaw), -std::cos(yaw), 0};
+    const double yaw = 2 * M_PI * unit(random), pitch = std::asin(1.9 * unit(random) - 0.95) * unit(random),
+                 roll = unit(random) < 0.5 ? 0 : 6 * unit(random);
+    const Vector3 forward{std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)},
+        level{std::sin(yaw), -std::cos(yaw), 0};
     const Vector3 upright = cross(level, forward);
     opened.eye.forward = forward;
     opened.eye.right = std::cos(roll) * level + std::sin(roll) * upright;
@@ -98,10 +100,13 @@ std::vector<bool> covered(const driver::Product& product) {
   for (int y = 0; y < eye.height; ++y)
     for (int x = 0; x < eye.width; ++x) rays.push_back(place::direction_through(eye, x + 0.5, y + 0.5));
   for (std::size_t i = 0; i < product.indices.size(); i += 3) {
-    const Vector3 corner[3] = {vertex(product, product.indices[i]), vertex(product, product.indices[i + 1]), vertex(product, product.indices[i + 2])};
+    const Vector3 corner[3] = {vertex(product, product.indices[i]), vertex(product, product.indices[i + 1]),
+                               vertex(product, product.indices[i + 2])};
     const Box box = box_of(eye, corner);
-    const int x0 = std::max(0, static_cast<int>(std::max(box.low[0] - 1, -1.0))), x1 = static_cast<int>(std::min<double>(eye.width - 1, box.high[0] + 1));
-    const int y0 = std::max(0, static_cast<int>(std::max(box.low[1] - 1, -1.0))), y1 = static_cast<int>(std::min<double>(eye.height - 1, box.high[1] + 1));
+    const int x0 = std::max(0, static_cast<int>(std::max(box.low[0] - 1, -1.0))),
+              x1 = static_cast<int>(std::min<double>(eye.width - 1, box.high[0] + 1));
+    const int y0 = std::max(0, static_cast<int>(std::max(box.low[1] - 1, -1.0))),
+              y1 = static_cast<int>(std::min<double>(eye.height - 1, box.high[1] + 1));
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
         const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width) + static_cast<std::size_t>(x);
@@ -158,21 +163,24 @@ Seams seams(const driver::Product& product, const std::vector<cover::Copy>& copi
       const Vector3 a = at(edge.first), b = at(edge.second), ab = b - a;
       const auto on_border = [&](const cover::Bearing& border) {
         const double on = 1e-5;
-        return std::fabs(cover::turn(border, cover::Bearing{a.x, a.y})) < on * (1 + std::hypot(a.x, a.y)) && std::fabs(cover::turn(border, cover::Bearing{b.x, b.y})) < on * (1 + std::hypot(b.x, b.y));
+        return std::fabs(cover::turn(border, cover::Bearing{a.x, a.y})) < on * (1 + std::hypot(a.x, a.y)) &&
+               std::fabs(cover::turn(border, cover::Bearing{b.x, b.y})) < on * (1 + std::hypot(b.x, b.y));
       };
       if (copies[c].wedge && (on_border(copies[c].wedge->from) || on_border(copies[c].wedge->to))) continue;
       if (!copies[c].sills.empty()) continue;
       ++found.edges;
       // Sorted by x: only what lies between the ends can lie on the edge.
       const float least = std::min(edge.first[0], edge.second[0]), most = std::max(edge.first[0], edge.second[0]);
-      for (auto v = std::lower_bound(vertices.begin(), vertices.end(), Key{least, -1e30F, -1e30F}); v != vertices.end() && (*v)[0] <= most; ++v) {
+      for (auto v = std::lower_bound(vertices.begin(), vertices.end(), Key{least, -1e30F, -1e30F}); v != vertices.end() && (*v)[0] <= most;
+           ++v) {
         if (*v == edge.first || *v == edge.second) continue;
         const Vector3 p = at(*v);
         const double t = dot(p - a, ab) / dot(ab, ab), off = length(p - (a + t * ab)), size = length(ab);
         if (t * size < 1e-5 || (1 - t) * size < 1e-5 || off > 1e-6 * (1 + length(p))) continue;
         if (found.torn++ == 0) {
-          found.first = fmt::format("copy {} '{}': ({:.7g}, {:.7g}, {:.7g}) within ({:.7g}, {:.7g}, {:.7g}) - ({:.7g}, {:.7g}, {:.7g}), t = {:.4g}, off {:.3g}", c,
-                                    cover::to_string(copy.word), p.x, p.y, p.z, a.x, a.y, a.z, b.x, b.y, b.z, t, off);
+          found.first = fmt::format(
+              "copy {} '{}': ({:.7g}, {:.7g}, {:.7g}) within ({:.7g}, {:.7g}, {:.7g}) - ({:.7g}, {:.7g}, {:.7g}), t = {:.4g}, off {:.3g}",
+              c, cover::to_string(copy.word), p.x, p.y, p.z, a.x, a.y, a.z, b.x, b.y, b.z, t, off);
         }
       }
     }

@@ -14,8 +14,8 @@ driver::Opened open_or_fail(const std::string& path);
 /// Puts the eye anywhere in the room where it is not inside an object, looking anywhere; the head upright or tilted.
 void move_eye(driver::Opened& opened, std::mt19937& random, int width, int height);
 
-/// Which pixels' centres see a triangle of the product: counts triangles whose three signed volumes do not exclude the ray, so that a ray through a shared edge is
-/// always counted by one of its two triangles, in exact agreement of their signs.
+/// Which pixels' centres see a triangle of the product: counts triangles whose three signed volumes do not exclude the ray, so that a ray
+/// through a shared edge is always counted by one of its two triangles, in exact agreement of their signs.
 std::vector<bool> covered(const driver::Product& product);
 
 /// Of the pixels that see none, those where the mirrors themselves lead to something, at the pixel's centre and around it: holes.

@@ -1,5 +1,6 @@
-// No hole anywhere: from random eyes in every kind of room, each pixel of the export sees a triangle wherever a ray through the real mirrors meets something before it
-// is cut off. And no T-junction: no vertex of a copy lies within the edge of a triangle that has no neighbour there.
+// No hole anywhere: from random eyes in every kind of room, each pixel of the export sees a triangle wherever a ray through the real
+// mirrors meets something before it is cut off. And no T-junction: no vertex of a copy lies within the edge of a triangle that has no
+// neighbour there.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -38,7 +39,8 @@ void look_from(int eyes, unsigned seed) {
     // Fewer bounces make more true holes, and quicker covers; every depth has to be right.
     const int most = std::min(opened.scene.cover.max_bounces, 5);
     const auto scene = trace::prepare(*opened.room);
-    const int here = eyes * static_cast<int>(i + 1) / static_cast<int>(paths.size()) - eyes * static_cast<int>(i) / static_cast<int>(paths.size());
+    const int here =
+        eyes * static_cast<int>(i + 1) / static_cast<int>(paths.size()) - eyes * static_cast<int>(i) / static_cast<int>(paths.size());
     for (int n = 0; n < here; ++n, ++looked) {
       opened.scene.cover.max_bounces = opened.room->room.space == geometry::Space::spherical ? most + 3 : 1 + n % most;
       test::move_eye(opened, random, 64, 48);
@@ -47,7 +49,8 @@ void look_from(int eyes, unsigned seed) {
       const auto compiled = driver::compile(opened, options, executor);
       if (!compiled) FAIL(paths[i] + ": " + to_text(compiled.error()));
       const test::Holes found = test::holes(opened, compiled->product, scene);
-      INFO(paths[i] << " eye " << n << " max_bounces " << opened.scene.cover.max_bounces << ": " << found.first << ", " << found.wrong << " holes");
+      INFO(paths[i] << " eye " << n << " max_bounces " << opened.scene.cover.max_bounces << ": " << found.first << ", " << found.wrong
+                    << " holes");
       CHECK(found.wrong == 0);
       wrong += found.wrong;
     }
@@ -79,7 +82,8 @@ TEST_CASE("a missing triangle is a hole, and a vertex that has moved along its e
     driver::Product halved = compiled->product;
     driver::DrawnCopy& copy = halved.copies.back();
     std::uint32_t* triangle = &halved.indices[copy.first_index];
-    const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3], middle = static_cast<std::uint32_t>(halved.positions.size());
+    const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3],
+                        middle = static_cast<std::uint32_t>(halved.positions.size());
     std::array<float, 3> at{};
     for (std::size_t i = 0; i < 3; ++i) at[i] = (halved.positions[a][i] + halved.positions[b][i]) / 2;
     triangle[(k + 1) % 3] = middle;
@@ -97,7 +101,8 @@ TEST_CASE("no vertex lies within an edge that has no neighbour", "[watertight]")
   // Frames run into those of the neighbouring walls, with edges of their own.
   for (const std::string& path : rooms(false)) {
     auto opened = test::open_or_fail(path);
-    opened.scene.cover.max_bounces = std::min(opened.scene.cover.max_bounces, opened.room->room.space == geometry::Space::spherical ? 6 : 2);
+    opened.scene.cover.max_bounces =
+        std::min(opened.scene.cover.max_bounces, opened.room->room.space == geometry::Space::spherical ? 6 : 2);
     test::move_eye(opened, random, 320, 240);
     const auto compiled = driver::compile(opened, {}, serial_executor());
     REQUIRE(compiled);

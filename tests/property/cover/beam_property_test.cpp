@@ -1,5 +1,6 @@
-// Laws of beams over random rooms and eyes: they find the group's copies; unequal weights cut a copy into wedges that fill what the copy fills; every
-// bearing leads to one copy after each number of bounces; following one ray by hand meets the mirrors of the wedge that holds it.
+// Laws of beams over random rooms and eyes: they find the group's copies; unequal weights cut a copy into wedges that fill what the copy
+// fills; every bearing leads to one copy after each number of bounces; following one ray by hand meets the mirrors of the wedge that holds
+// it.
 #include <catch2/catch.hpp>
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,8 @@ place::PlacedRoom mirror_room(const std::string& text) {
   place::PlacedRoom placed;
   placed.room = std::move(room).value();
   for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
-    if (placed.room.walls[i].reflects) placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, 0.9, {1, 1, 1}});
+    if (placed.room.walls[i].reflects)
+      placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, 0.9, {1, 1, 1}});
   }
   return placed;
 }
@@ -135,7 +137,8 @@ TEST_CASE("copies cut by weight have the paths' own weights, and fit together", 
       for (const auto* piece : pieces) {
         REQUIRE(piece->wedge);
         CHECK(geometry::difference(piece->cover_from_room, pieces.front()->cover_from_room) == 0);
-        loose += std::none_of(pieces.begin(), pieces.end(), [&](const auto* other) { return cover::same(other->wedge->from, piece->wedge->to); });
+        loose += std::none_of(pieces.begin(), pieces.end(),
+                              [&](const auto* other) { return cover::same(other->wedge->from, piece->wedge->to); });
       }
       // A whole room has two ends; one around the eye's antipode has none.
       CHECK(loose <= 1);
@@ -254,7 +257,8 @@ TEST_CASE("of mirrors above each other each ray has its own, in one piece of the
           ++found;
           wrong += std::fabs(copy.weight.r - weight) > 1e-9;
         }
-        const bool whole = std::any_of(copies.begin(), copies.end(), [&](const auto& copy) { return copy.bounces == bounces && !copy.wedge; });
+        const bool whole =
+            std::any_of(copies.begin(), copies.end(), [&](const auto& copy) { return copy.bounces == bounces && !copy.wedge; });
         INFO("bearing " << angle << " slope " << slope << " bounces " << bounces);
         CHECK(wrong == 0);
         if (!whole) CHECK(found >= 1);

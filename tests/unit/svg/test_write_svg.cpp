@@ -168,7 +168,9 @@ TEST_CASE("the sphere's near half is cut from the frame, whatever the room", "[s
 
 TEST_CASE("pictures carry title, description, orders and walls", "[svg]") {
   const std::string text = svg::write_svg(tiling_of("*2 3 12"))[0].bytes;
-  CHECK(contains(text, "<title>*2 3 12</title>\n<desc>The mirror room *2 3 12 and its 7 drawn copies; hyperbolic plane, Poincaré disk. The room itself is orange"));
+  CHECK(contains(text,
+                 "<title>*2 3 12</title>\n<desc>The mirror room *2 3 12 and its 7 drawn copies; hyperbolic plane, Poincaré disk. The room "
+                 "itself is orange"));
   for (const char* label : {">12</text>", ">3</text>", ">2</text>", ">1</text>"}) CHECK(contains(text, label));
   const std::string bare = svg::write_svg(tiling_of("*2 3 12"), {.labels = false, .tooltips = false})[0].bytes;
   CHECK_FALSE(contains(bare, "<text"));
@@ -198,7 +200,8 @@ TEST_CASE("copies on further sheets and copies too small to see are left out", "
 TEST_CASE("the room, mirror images and their images differ in colour, by parity and by length", "[svg]") {
   const driver::Tiling tiling = tiling_of("*22222");
   for (const auto colouring : {driver::Tiling::Colouring::parity, driver::Tiling::Colouring::length}) {
-    const std::string a = svg::fill_of(tiling.copies[0], 2, colouring), b = svg::fill_of(tiling.copies[1], 2, colouring), c = svg::fill_of(tiling.copies[2], 2, colouring);
+    const std::string a = svg::fill_of(tiling.copies[0], 2, colouring), b = svg::fill_of(tiling.copies[1], 2, colouring),
+                      c = svg::fill_of(tiling.copies[2], 2, colouring);
     for (const std::string& color : {a, b, c}) CHECK(std::regex_match(color, std::regex("#[0-9a-f]{6}")));
     CHECK(a == svg::kBase);
     CHECK(a != b);
@@ -245,7 +248,8 @@ TEST_CASE("a copy is cut to its wedge, in every space and chart", "[svg]") {
     }
   }
   double all = 0;
-  for (const svg::Piece& p : svg::seen_pieces(tiling.room.space, pieces, tiling.copies[1], tiling.room_from_eye)) all += p.from.x * p.to.y - p.from.y * p.to.x;
+  for (const svg::Piece& p : svg::seen_pieces(tiling.room.space, pieces, tiling.copies[1], tiling.room_from_eye))
+    all += p.from.x * p.to.y - p.from.y * p.to.x;
   if (tiling.room.space == geometry::Space::euclidean) CHECK(sum == Approx(std::abs(all)));
   tiling.copies[1] = left;
   const auto cut = svg::write_svg(tiling).front().bytes;
@@ -254,7 +258,8 @@ TEST_CASE("a copy is cut to its wedge, in every space and chart", "[svg]") {
   // A wedge that misses the copy shows nothing of it.
   cover::Copy missed = left;
   missed.wedge = cover::Wedge{{-c, -s}, {-c + 1e-3 * s, -s - 1e-3 * c}};
-  if (tiling.room.space != geometry::Space::spherical) CHECK(svg::seen_pieces(tiling.room.space, pieces, missed, tiling.room_from_eye).empty());
+  if (tiling.room.space != geometry::Space::spherical)
+    CHECK(svg::seen_pieces(tiling.room.space, pieces, missed, tiling.room_from_eye).empty());
 }
 
 TEST_CASE("storeys above each other are one room from above", "[svg]") {
