@@ -119,6 +119,30 @@ TEST_CASE("a ray into a corner comes back as the limit of its neighbours", "[tra
   }
 }
 
+TEST_CASE("a ray that starts on a wall, rounded to either side of it, and points out of the room meets that wall at once", "[trace]") {
+  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 5, 2), regular_room(Space::hyperbolic, 5, 2)}) {
+    const Prism prism{room.space, 1, room.walls};
+    Random random{4};
+    int behind = 0;
+    for (int i = 0; i < 400; ++i) {
+      const int wall = static_cast<int>(random.bits() % room.walls.size());
+      const room::Wall& w = room.walls[static_cast<std::size_t>(wall)];
+      const double s = w.length * random.between(0.1, 0.9), turn = random.between(0.05, kPi - 0.05);
+      const Point at = geometry::point_along(room.space, w.start, w.along, s);
+      const Direction in = normal_of_wall(room.space, w);
+      const auto along = geometry::direction_along(room.space, w.start, w.along, s);
+      const Ray ray = ray_from(room.space, {at, 0.5}, {std::cos(turn) * Ambient(along) - std::sin(turn) * in.floor, 0.1});
+      behind += geometry::value_at(w.line, ray.at) < 0;
+      const Exit exit = exit_of(prism, ray);
+      CHECK(exit.surface == wall);
+      CHECK(exit.t < 1e-12);
+      const Ray back = reflected_in_wall(prism, ray, exit.t, wall);
+      CHECK(exit_of(prism, back).t > 1e-3);
+    }
+    CHECK(behind > 20);
+  }
+}
+
 TEST_CASE("vertical rays, rays in a wall and rays in an edge of the room find their way", "[trace]") {
   for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
                              furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(hemisphere()), furnished(lune(2))}) {
