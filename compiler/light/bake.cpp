@@ -15,6 +15,7 @@
 #include "compiler/light/blocks.h"
 #include "compiler/light/light_grid.h"
 #include "compiler/light/passing.h"
+#include "compiler/light/way.h"
 
 namespace orbc::light {
 namespace {
@@ -36,6 +37,7 @@ struct Part {
   const BakeOptions& options;
   const PlacedMesh& mesh;
   const PartNormals& normals;
+  bool stand_in = false;            ///< a coarser level of another part: light is that of the part itself
   std::vector<Color> at_vertex;     ///< irradiance at normals.vertices
 };
 
@@ -143,7 +145,9 @@ class BlockBaker {
     ++grid_.asked;
     const InTriangle at = place(i, j);
     if (!near_known_) near_ = images_near_block(), near_known_ = true;
-    light = irradiance(part_.field, light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b), near_);
+    LightPoint point = light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b);
+    if (part_.stand_in) point = on_surface(part_.field, point, std::max(block_.length_u, block_.length_v) / 2);
+    light = irradiance(part_.field, point, near_);
   }
 
   std::vector<std::uint32_t> images_near_block() const {
@@ -367,7 +371,7 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
     if (p >= field.normals.size()) own[p] = part_normals(room, room.parts[p]);
     normals.push_back(p < field.normals.size() ? &field.normals[p] : &own[p]);
-    Part& part = parts.emplace_back(Part{room, field, options, room.parts[p], *normals[p], {}});
+    Part& part = parts.emplace_back(Part{room, field, options, room.parts[p], *normals[p], field.lit && p >= field.normals.size(), {}});
     light_vertices(part, executor, progress);
     blocks.push_back(blocks_of(room, static_cast<std::uint32_t>(p), part.normals));
     first.push_back(lamps.size());

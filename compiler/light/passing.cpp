@@ -34,13 +34,6 @@ struct Node {
 
 double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
-// The k-th point of the unit cube: Roberts' lattice of the number that solves x⁴ = x + 1.
-std::array<double, 3> lattice(int k) {
-  constexpr double kG = 1.22074408460575947536;
-  const auto at = [&](double step) { const double v = 0.5 + (k + 1) * step; return v - std::floor(v); };
-  return {at(1 / kG), at(1 / (kG * kG)), at(1 / (kG * kG * kG))};
-}
-
 int points_on(double length, double density) { return std::clamp(static_cast<int>(std::ceil(length * density - 1e-9)), 1, kMostPoints - 1) + 1; }
 
 /// The net: vertices of the parts, and points inside the blocks.
@@ -51,7 +44,7 @@ class Net {
       const PartNormals& normals = *s_.normals[p];
       const std::size_t vertices = nodes_.size();
       for (const ShadingVertex& v : normals.vertices) nodes_.push_back({light_point(s_.room, s_.room.parts[p], v), {}, {}, false, 0, 0});
-      for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices);
+      for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices, p >= s_.field.normals.size());
     }
   }
 
@@ -121,7 +114,7 @@ class Net {
     std::vector<std::int32_t> node;
   };
 
-  void add_block(const place::PlacedMesh& part, const PartNormals& normals, const Block& block, std::size_t vertices) {
+  void add_block(const place::PlacedMesh& part, const PartNormals& normals, const Block& block, std::size_t vertices, bool stand_in) {
     Mesh mesh;
     mesh.w = points_on(block.length_u, options_.density), mesh.h = points_on(block.length_v, options_.density);
     if (block.second < 0) mesh.w = mesh.h = std::max(mesh.w, mesh.h);
@@ -137,7 +130,9 @@ class Net {
         } else {
           const InTriangle at = in_triangle(block, static_cast<double>(i) / (mesh.w - 1), static_cast<double>(j) / (mesh.h - 1));
           mesh.node.push_back(static_cast<std::int32_t>(nodes_.size()));
-          nodes_.push_back({light_point(s_.room, part, normals, at.triangle, at.b), {}, {}, false, 0, 0});
+          LightPoint point = light_point(s_.room, part, normals, at.triangle, at.b);
+          if (stand_in) point = on_surface(s_.field, point, std::max(block.length_u, block.length_v) / 2);
+          nodes_.push_back({point, {}, {}, false, 0, 0});
         }
       }
     meshes_.push_back(std::move(mesh));

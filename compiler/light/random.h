@@ -12,6 +12,15 @@ namespace orbc::light {
   return v ^ (v >> 31);
 }
 
+/// The k-th point of the unit cube, moved by `shift` (each part in [0, 1)): the lattice of the number that solves x⁴ = x + 1, whose every
+/// beginning is well spread (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+[[nodiscard]] constexpr std::array<double, 3> lattice(int k, const std::array<double, 3>& shift = {0.5, 0.5, 0.5}) {
+  constexpr double kG = 1.22074408460575947536;
+  std::array<double, 3> at{shift[0] + (k + 1) / kG, shift[1] + (k + 1) / (kG * kG), shift[2] + (k + 1) / (kG * kG * kG)};
+  for (double& v : at) v -= static_cast<double>(static_cast<long>(v));
+  return at;
+}
+
 /// Random numbers by counting: the n-th number of a key is a function of both alone, so that no picture depends on threads or order.
 class Random {
  public:

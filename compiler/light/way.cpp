@@ -98,6 +98,21 @@ double unhindered(const LightField& field, const LampImage& image, const HungLam
   return value * profile(lamp, -trace::inner(space, trace::direction_at(space, ray, way.length), image.axes[sample]));
 }
 
+LightPoint on_surface(const LightField& field, const LightPoint& point, double reach) {
+  const Space space = field.scene.prism.space;
+  LightPoint nearest = point;
+  for (const double side : {1.0, -1.0}) {
+    const trace::Ray ray = trace::ray_from(space, point.at, side * point.flat);
+    const trace::Hit hit = trace::closest_triangle(field.scene, ray, reach);
+    if (hit.target != trace::Target::triangle || hit.t >= reach) continue;
+    const LightPoint there = light_point(field, *field.casting, trace::surface_at(field.scene, ray, hit), hit);
+    if (std::fabs(trace::inner(space, there.normal, point.normal)) < 0.7) continue;  // the other side of an edge
+    reach = hit.t;
+    nearest = there;
+  }
+  return nearest;
+}
+
 trace::Ray leaving(const LightField& field, const LightPoint& point, const trace::Direction& direction) {
   trace::Ray ray = trace::ray_from(field.scene.prism.space, point.origin, direction);
   ray.leaves_wall = point.wall;

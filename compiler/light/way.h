@@ -21,6 +21,10 @@ struct Way {
 [[nodiscard]] double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample,
                                 const LightPoint& point, const Way& way);
 
+/// A point of a stand-in that lies near a surface of the room, put onto that surface: coarse stand-ins cut corners and would lie in its
+/// shadow. In: how far off it may be. Left as it is where nothing is so near.
+[[nodiscard]] LightPoint on_surface(const LightField& field, const LightPoint& point, double reach);
+
 /// The ray that leaves a lit point.
 [[nodiscard]] trace::Ray leaving(const LightField& field, const LightPoint& point, const trace::Direction& direction);
 

@@ -20,9 +20,9 @@ constexpr int kSurePasses = 2;      // surfaces before which no path is ended by
 
 double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
-}  // namespace
-
-Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, light::Random& random) {
+// One path, by the numbers that choose its first direction.
+Color walked(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, const std::array<double, 3>& first,
+             light::Random& random) {
   light::LightPoint at = from;
   light::Leg leg{room, field, random, {}, {1, 1, 1}, {}, {}};
   for (int passes = 0; passes < field.options.passes; ++passes) {
@@ -31,7 +31,7 @@ Color passed_on(const place::PlacedRoom& room, const light::LightField& field, c
       if (random.next() >= chance) break;
       leg.weight = (1 / chance) * leg.weight;
     }
-    const light::Chosen chosen = light::choose(light::guide_at(field, at), random.next_three());
+    const light::Chosen chosen = light::choose(light::guide_at(field, at), passes == 0 ? first : random.next_three());
     if (chosen.weight <= 0) break;
     leg.weight = chosen.weight * leg.weight;
     if (!leg.arrive(light::leaving(field, at, chosen.direction))) break;
@@ -41,6 +41,15 @@ Color passed_on(const place::PlacedRoom& room, const light::LightField& field, c
     leg.sum = leg.sum + leg.weight * (field.ambient + (1 / std::numbers::pi) * light::irradiance_guess(field, at, random.next_three()));
   }
   return leg.sum;
+}
+
+}  // namespace
+
+Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, light::Random& random, int paths) {
+  const std::array<double, 3> shift = random.next_three();
+  Color sum;
+  for (int k = 0; k < paths; ++k) sum = sum + walked(room, field, from, light::lattice(k, shift), random);
+  return (1.0 / paths) * sum;
 }
 
 double noise_of(const Film& film, double exposure) {

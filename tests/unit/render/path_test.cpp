@@ -36,6 +36,7 @@ render::DrawOptions drawing(const Lit& l, int samples) {
   render::DrawOptions options;
   options.light = &l.field;
   options.samples = samples;
+  options.paths = 2;
   options.max_bounces = 400;
   return options;
 }
