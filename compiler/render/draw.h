@@ -13,8 +13,10 @@ struct DrawOptions {
   int max_bounces = 12;
   double min_weight = 0;
   int max_depth = 16;               ///< mirror and glass objects met on one path
+  int paths = 8;                    ///< `integrator: path`: paths of light from a sample's surface on
   const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
   scene::Color background;          ///< seen, as it is, where a path is cut off
+  bool weighs_background = false;   ///< it is seen times the path's weight instead
 };
 
 /// The reference picture: every pixel's rays followed as geodesics through real mirrors. Never unfolds, never bends.

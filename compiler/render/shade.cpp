@@ -49,7 +49,7 @@ struct Walker {
     out = at_most(out, white);
     if (field.options.passes == 0) return add(weight * out);
     // What a guess lifts beyond white must not be cut off guess by guess: their mean would become too dark.
-    const Color more = color * passed_on(*scene.room, field, at, random);
+    const Color more = color * passed_on(*scene.room, field, at, random, options.paths);
     const Color kept{out.r < white ? more.r : 0, out.g < white ? more.g : 0, out.b < white ? more.b : 0};
     seen.radiance = seen.radiance + weight * (out + kept);
     seen.passed_on = seen.passed_on + weight * kept;
@@ -58,7 +58,8 @@ struct Walker {
 
   void light(const trace::Path& path, double share, int depth) {
     add(share * path.glow);
-    if (path.cut_off || path.hit.target == trace::Target::nothing) return add(share * options.background);
+    if (path.cut_off || path.hit.target == trace::Target::nothing)
+      return add(share * (options.weighs_background ? path.weight * options.background : options.background));
     const trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
     if (depth == 0) seen.surface = point, seen.hit = true;
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
