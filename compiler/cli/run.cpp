@@ -31,6 +31,7 @@ void add_scene(CLI::App& command, SceneArguments& scene) {
   command.add_option("--size", scene.size, "Picture size instead of the scene's")->type_name("WxH");
   command.add_option("--max-bounces", scene.max_bounces, "Mirrors a ray may meet, instead of the scene's")->check(CLI::Range(0, 1000))->type_name("N");
   command.add_option("--projection", scene.projection, "Camera instead of the scene's")->check(CLI::IsMember({"perspective", "panorama", "cylinder"}))->type_name("NAME");
+  command.add_flag("--expected-background", scene.expected_background, "Where mirrors are followed no further show the colour expected beyond, instead of the background");
   command.add_option("--integrator", scene.integrator, "Light of lamps alone (direct), or also what surfaces pass on to each other (path), instead of the scene's")
       ->check(CLI::IsMember({"direct", "path"}))->type_name("NAME");
 }

@@ -79,6 +79,7 @@ driver::Overrides overrides_of(const SceneArguments& arguments) {
   if (arguments.quality == "draft") overrides.quality = scene::BakeQuality::draft;
   if (arguments.quality == "normal") overrides.quality = scene::BakeQuality::normal;
   if (arguments.quality == "fine") overrides.quality = scene::BakeQuality::fine;
+  overrides.expected_background = arguments.expected_background;
   return overrides;
 }
 

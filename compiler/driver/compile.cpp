@@ -14,6 +14,7 @@
 #include "compiler/driver/estimate.h"
 #include "compiler/driver/budget.h"
 #include "compiler/driver/levels.h"
+#include "compiler/driver/tail.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/notation/print.h"
 
@@ -67,6 +68,15 @@ ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels)
   return of;
 }
 
+/// Gives the room a look of the colour expected beyond, and its mirrors panels of it.
+void add_curtains(place::PlacedRoom& room, const scene::Color& color) {
+  place::Look look;
+  look.color = color;
+  look.material.kind = scene::MaterialKind::emissive;   // it is the light itself
+  room.looks.push_back(look);
+  for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(room.looks.size() - 1))) room.parts.push_back(std::move(panel));
+}
+
 /// Why a scene cannot be compiled at all.
 std::optional<Diagnostic> refusal(const Opened& opened, const CompileOptions& options, const std::vector<cover::Copy>& copies) {
   if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(), [](const place::PlacedMirror& m) { return !(m.glow == scene::Color{}); })) {
@@ -100,6 +110,8 @@ struct Ready {
   bend::BendOptions bending;
   std::uint64_t left_out = 0;
   LevelTally tally;
+  Beyond beyond;
+  std::vector<std::uint32_t> without_curtains;   ///< the models as they are without the tail
 };
 
 /// Levels of detail, and what a budget of triangles leaves. Makes: why it cannot be met, or nothing.
@@ -134,7 +146,11 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOpti
   ready->bending = options.bend;
   ready->bending.colours_vary = options.bend.colours_vary || light::needs_bake(opened.scene, *opened.room);
   if (auto wrong = choose_detail(opened, options, *ready, executor, progress); !wrong.empty()) return wrong;
-  const Stock stock = stock_of(*opened.room, ready->levels, ready->choice);
+  Stock stock = stock_of(*opened.room, ready->levels, ready->choice);
+  const bool expected = opened.expected_background && options.bend.view == bend::View::eye;
+  const std::size_t first_curtain = stock.room.parts.size();
+  if (options.bend.view == bend::View::eye) ready->beyond = look_beyond(opened, expected, executor);
+  if (expected) add_curtains(stock.room, ready->beyond.color);
   report(progress, "atlas", 0, 0);
   ready->choice.model_of_copy.resize(ready->copies.size(), 0);
   PaintOptions painting = options.paint;
@@ -144,6 +160,10 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOpti
   ready->painted = std::move(painted).value();
   ready->models = models_of(ready->painted.atlas, stock, ready->choice);
   add_highlights(ready->painted, ready->models, ready->choice.model_of_copy);
+  ready->without_curtains = ready->choice.model_of_copy;
+  std::vector<bend::Model::Part> curtain;
+  for (std::size_t i = first_curtain; expected && i < stock.room.parts.size(); ++i) curtain.push_back({&ready->painted.atlas.room.parts[i], &ready->painted.atlas.uv[i]});
+  if (expected) hang(*opened.room, opened.scene.cover, ready->copies, curtain, ready->models, ready->choice.model_of_copy);
   return ready;
 }
 
@@ -174,6 +194,8 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   if (may_exceed(opened, options, ready))
     if (const auto planned = estimated(opened, options, ready, executor); !planned) return located(planned.error(), opened.scene.span);
   auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending, executor, progress);
+  if (bent && options.budget && bent->indices.size() / 3 > *options.budget)   // the tail is what one can do without
+    bent = bend::bend(ready.painted.atlas.room, ready.models, ready.without_curtains, ready.copies, opened.eye, ready.bending, executor, progress);
   if (!bent) return located(bent.error(), opened.scene.span);
 
   Compiled compiled;
@@ -194,6 +216,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
   r.error_bound_px = bent->error_bound_px + ready.choice.error_px;
   r.highlights = ready.painted.highlights.counts;
+  r.weight_lost = ready.beyond.weight_lost;
   r.triangles_whole = r.triangles + ready.tally.saved;
   r.tolerance_px = ready.bending.tolerance_px, r.left_out = ready.left_out;
   std::set<std::string> words;
@@ -242,7 +265,7 @@ std::string report_json(const Compiled& compiled) {
   const Report& r = compiled.report;
   nlohmann::ordered_json json{{"orbifold", compiled.product.title}, {"copies", r.copies}, {"vertices", r.vertices}, {"triangles", r.triangles},
                               {"triangles_without_levels", r.triangles_whole}, {"beams", r.beams}, {"words", r.words}, {"longest_word", r.longest_word},
-                              {"error_bound_px", r.error_bound_px}, {"tolerance_px", r.tolerance_px}, {"copies_left_out", r.left_out},
+                              {"error_bound_px", r.error_bound_px}, {"tolerance_px", r.tolerance_px}, {"copies_left_out", r.left_out}, {"weight_lost", r.weight_lost},
                               {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
                               {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
   if (!r.levels.empty()) {

@@ -35,6 +35,7 @@ struct Report {
   std::uint64_t beams = 0, words = 0; ///< copies that are cut to a wedge; distinct words
   std::uint64_t left_out = 0;         ///< copies that a budget left out: smaller in the picture than the tolerance
   double error_bound_px = 0;
+  double weight_lost = 0;             ///< of paths that are cut off, mean over the picture: what the tail stands for
   double tolerance_px = 0;            ///< of bending and of levels: what was asked for, or what a budget allowed
   int longest_word = 0;
   std::vector<ToldLevels> levels;     ///< of the parts that have some

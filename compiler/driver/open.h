@@ -18,6 +18,7 @@ struct Overrides {
   std::optional<scene::Projection> projection;
   std::optional<scene::Integrator> integrator;
   std::optional<scene::BakeQuality> quality;
+  bool expected_background = false;
 };
 
 /// A scene that has been read, realised, furnished and looked at: where both roads begin.
@@ -26,6 +27,7 @@ struct Opened {
   std::unique_ptr<place::PlacedRoom> room;  ///< keeps its place in memory: the tracer refers to it
   place::Eye eye;
   Diagnostics notes;
+  bool expected_background = false;         ///< where paths are cut off one sees what is expected beyond (tail.h), times their weight, not `cover.background`
 };
 
 /// read → realise → furnish → eye. In: a path, or "-" for standard input.

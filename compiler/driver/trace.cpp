@@ -1,5 +1,6 @@
 #include "compiler/driver/trace.h"
 
+#include "compiler/driver/tail.h"
 #include "compiler/light/shade.h"
 #include "compiler/render/draw.h"
 
@@ -18,6 +19,7 @@ render::Film trace(const Opened& opened, const TraceOptions& options, const Exec
   draw.background = opened.scene.cover.background;
   // The film is exposed as a whole; the background is shown as it is.
   if (light.lit && light.exposure > 0) draw.background = (1 / light.exposure) * draw.background;
+  if (opened.expected_background) draw.background = look_beyond(opened, true, executor).color, draw.weighs_background = true;
   return render::draw(scene, opened.eye, draw, executor, progress);
 }
 

@@ -54,7 +54,7 @@ void write_copy_facts(Json& json, const DrawnCopy& copy) {
   json.key("bounces").number(copy.bounces).key("sheet").number(copy.sheet);
   json.key("reversing").boolean(copy.reversing);
   json.key("weight").numbers(floats(copy.tint));
-  json.key("distance").number(copy.distance);
+  json.key("distance").number(copy.distance).key("level").number(copy.level);
 }
 
 void write_camera(Json& json, const Product& product) {
