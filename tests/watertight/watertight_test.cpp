@@ -46,6 +46,7 @@ void look_from(int eyes, unsigned seed) {
       test::move_eye(opened, random, 64, 48);
       driver::CompileOptions options;
       options.bend.tolerance_px = n % 2 ? 0.25 : 0.05;
+      options.levels = n % 3 != 0;
       const auto compiled = driver::compile(opened, options, executor);
       if (!compiled) FAIL(paths[i] + ": " + to_text(compiled.error()));
       const test::Holes found = test::holes(opened, compiled->product, scene);
