@@ -334,11 +334,11 @@ BakeOptions bake_options(const scene::BakeSpec& spec) {
   BakeOptions options;
   if (spec.quality == scene::BakeQuality::draft) {
     options.coarse = 12, options.fine = 48, options.texture_fine = 200, options.tolerance = 5;
-    options.passing = {64, 4};
+    options.passing = {64, 10};
   }
   if (spec.quality == scene::BakeQuality::fine) {
     options.coarse = 48, options.fine = 400, options.texture_fine = 600, options.tolerance = 1;
-    options.passing = {1024, 16};
+    options.passing = {1024, 48};
   }
   if (spec.samples) options.passing.samples = *spec.samples;
   return options;

@@ -18,7 +18,7 @@ using geometry::Vector3;
 
 constexpr double kGuided = 0.5;     // share of directions towards spots: the variance is at most doubled where they are of no use
 constexpr double kSpread = 2;       // radius of a spot over its distance from the lamp: within it lies 55 % of the light on that side
-constexpr double kWidest = 0.4;     // cosine: wider cones are no better than the cosine alone
+constexpr double kWidest = 0.5;     // cosine: wider cones are no better than the cosine alone
 
 // A vector across n; Duff et al., Building an orthonormal basis, revisited (JCGT 2017).
 Vector3 across(const Vector3& n) {
@@ -40,14 +40,16 @@ void add_lobe(const LightField& field, const LampImage& image, const Foot& foot,
   if (!way.exists) return;
   const double radius = kSpread * foot.reach, size = std::hypot(way.length, radius), cosine = way.length / size;
   const Vector3 axis = local(space, guide.frame, way.start);
-  // How much the spot may add, were it seen: its cosines, never quite 0 for the part of it that lies nearer or higher.
+  if (cosine < kWidest) return;
+  // How much the spot may add, were it seen: its cosines, never quite 0 for the part of it that lies nearer or higher. A spot on the
+  // surface's own plane adds nothing.
+  if (dot(axis, guide.normal) < 1e-6) return;
   const double here = dot(axis, guide.normal) + radius / size;
-  if (here <= 0) return;
   const double there = foot.upright ? std::fabs(way.start.z) + radius / size : 1;
   const double power = std::max({lamp.power.r, lamp.power.g, lamp.power.b}) * image.weight * foot.share;
   Guide::Lobe lobe;
   lobe.axis = axis;
-  lobe.cosine = std::max(cosine, kWidest);
+  lobe.cosine = cosine;
   lobe.share = power * std::min(here, 1.0) * std::min(there, 1.0) * falloff(lamp.falloff, space, size, way.arc, radius);
   if (lobe.share > 0) lobes.push_back(lobe);
 }

@@ -16,7 +16,7 @@ namespace {
 using scene::Color;
 
 constexpr int kLinked = 4;          // of so many directions one carries on what has been passed on: that is smoother than what lamps give
-constexpr int kMostPoints = 33;     // along a side of a block
+constexpr int kMostPoints = 129;    // along a side of a block
 constexpr double kSettled = 2e-4;   // of white: change at which the iteration ends
 
 /// Where a direction of a point ends.

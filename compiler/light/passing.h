@@ -18,7 +18,7 @@ struct LitSurfaces {
 
 struct PassOptions {
   int samples = 256;                ///< directions asked at every point
-  double density = 8;               ///< points per unit of length
+  double density = 24;              ///< points per unit of length
 };
 
 /// Light that surfaces pass on to each other: for every block ∫ radiance·cosθ dω/π on a grid of points, as LightField::options.passes allows.

@@ -12,6 +12,7 @@
 #include "compiler/room/realise.h"
 #include "compiler/room/room.h"
 #include "compiler/scene/defaults.h"
+#include "compiler/trace/analytic.h"
 
 using namespace orbc;
 using geometry::Space;
@@ -25,13 +26,13 @@ struct Lit {
   light::LightField field;
 };
 
-Lit lit(const char* notation, double height, bool mirrors) {
+Lit lit(const char* notation, double height, bool mirrors, scene::LampKind kind = scene::LampKind::point) {
   scene::Scene s = scene::default_scene(notation::parse(notation).value());
   s.room.height = height;
   for (scene::Wall& wall : s.room.walls)
     if (!mirrors) wall.mirrors.clear();
   scene::Lamp lamp;
-  lamp.kind = scene::LampKind::point;
+  lamp.kind = kind;
   lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
   lamp.place.z = 0.6 * height;
   s.lamps = {lamp};
@@ -96,6 +97,39 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
     INFO(notation << ": " << by_directions << ", " << by_falloff);
     CHECK(by_directions == Approx(by_falloff).epsilon(0.012));
   }
+}
+
+TEST_CASE("the light of a lamp, asked at random places of a closed room, is its power, in all three spaces and for every kind", "[light]") {
+  for (const char* notation : {"*222", "*2222", "*22222"})
+    for (const scene::LampKind kind : {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::disk, scene::LampKind::rectangle, scene::LampKind::spot}) {
+      const Lit l = lit(notation, 1, false, kind);
+      const room::Room& room = l.room.room;
+      light::Random random(17);
+      double sum = 0, squares = 0;
+      const auto add = [&](const light::LightPoint& point, double area) {
+        const double flux = area * light::irradiance(l.field, point).r;
+        sum += flux, squares += flux * flux;
+      };
+      const int kCount = kind == scene::LampKind::spot ? 240000 : 40000;  // little of the room is lit by a spot
+      for (int i = 0; i < kCount; ++i) {
+        const double phi = 2 * kPi * random.next(), reach = place::reach(room, phi), r = reach * random.next();
+        const geometry::Point at = geometry::point_along(room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
+        const double area = geometry::sin_k(room.space, r) * reach * 2 * kPi / kCount;
+        for (const double up : {1.0, -1.0}) {
+          const double z = up > 0 ? 0 : l.room.height;
+          add({{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false}, area);
+        }
+        for (int w = 0; w < static_cast<int>(room.walls.size()); ++w) {
+          const room::Wall& wall = room.walls[static_cast<std::size_t>(w)];
+          const geometry::Position on{room::point_on_wall(room, w, wall.length * random.next()), l.room.height * random.next()};
+          add({on, trace::normal_of_wall(room.space, wall), on, w, false}, wall.length * l.room.height / kCount);
+        }
+      }
+      const double error = std::sqrt(squares);
+      INFO(notation << ", kind " << static_cast<int>(kind) << ": " << sum << " ± " << error);
+      CHECK(error < 0.06);
+      CHECK(std::fabs(sum - 10) < 0.1);
+    }
 }
 
 TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a", "[light]") {
