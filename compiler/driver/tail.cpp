@@ -16,6 +16,7 @@ namespace {
 constexpr int kColumns = 64, kRows = 48;   // of the picture
 constexpr int kDeeper = 96;                // bounces beyond the cut-off
 constexpr double kNothing = 1e-4;          // weight
+constexpr double kInto = 0.01;             // of the room's height
 
 double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
 
@@ -60,17 +61,21 @@ Beyond look_beyond(const Opened& opened, bool with_color, const Executor& execut
 
 std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t look) {
   std::vector<place::PlacedMesh> panels;
+  const bool stacked = std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; });
   for (const place::PlacedMirror& mirror : room.mirrors) {
     place::PlacedMesh panel;
     panel.name = "curtain";
     const auto add = [&](const geometry::Point& p, double z) { panel.floor.push_back(p), panel.z.push_back(z); };
     if (mirror.wall >= 0) {
       panel.kind = place::PartKind::wall, panel.wall = mirror.wall;
+      // Into floor and ceiling, which hide it there: their edges are split otherwise, and nothing shall shine through between.
+      const double bottom = mirror.height[0] - (stacked || mirror.height[0] > 0 ? 0 : kInto * room.height);
+      const double top = mirror.height[1] + (stacked || mirror.height[1] < room.height ? 0 : kInto * room.height);
       const double length = mirror.span[1] - mirror.span[0];
       const auto pieces = static_cast<std::uint32_t>(std::clamp(std::ceil(length), 1.0, 64.0));   // walls of S² are long
       for (std::uint32_t k = 0; k <= pieces; ++k) {
         const geometry::Point p = room::point_on_wall(room.room, mirror.wall, mirror.span[0] + length * k / pieces);
-        add(p, mirror.height[0]), add(p, mirror.height[1]);
+        add(p, bottom), add(p, top);
         if (k == pieces) break;
         panel.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 3});
         panel.triangles.push_back({2 * k, 2 * k + 3, 2 * k + 1});

@@ -51,6 +51,8 @@ def main():
             if result:
                 what += f' ({100 * result["within_2"]:.3f} % within 2/255, {result["beyond_2_elsewhere"]} pixels off edges)'
             check(result is not None and result['agrees'], what)
+        result = verify(scene, '--expected-background', '--size', '400x300')
+        check(result is not None and result['agrees'], f'{scene.stem}: what is expected beyond the last mirrors is the same in both')
         if scene.stem in CLOSED:
             seen = closed(scene)
             check(seen == 0, f'{scene.stem}: {seen} background pixels in a closed room')
