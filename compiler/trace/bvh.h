@@ -44,8 +44,8 @@
 //   H²    0.51 | 0.54    0.37 | 0.38    0.54 | 0.57    0.43 | 0.43    0.69      0.82
 // Two threads: 1.9 of one (by the busier one's CPU time). Tried without gain: large pages, prefetching nodes, blocks or corners, more than two
 // walks in turn, AVX-512.
-// Memory 96 to 100 bytes a triangle of a mesh with shared corners (nodes 224 bytes for 8 children, blocks 448 bytes for 8 triangles, corners and indices in
-// double for the last word); a million triangles are built in 0.8 s of CPU time.
+// Memory 96 to 100 bytes a triangle of a mesh with shared corners (nodes 224 bytes for 8 children, blocks 448 bytes for 8 triangles, corners
+// and indices in double for the last word); a million triangles are built in 0.8 s of CPU time.
 #include <memory>
 #include <vector>
 
