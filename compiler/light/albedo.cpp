@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "compiler/geometry/chart.h"
+
 namespace orbc::light {
 namespace {
 
@@ -79,6 +81,21 @@ double solid_pattern(Pattern pattern, const Vector3& at, double cell) {
   }
 }
 
+bool has_solid(const place::PlacedMesh& part) {
+  return !part.pattern_position.empty() || part.kind == place::PartKind::floor || part.kind == place::PartKind::ceiling || part.kind == place::PartKind::wall;
+}
+
+Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
+  const std::complex<double> z = (space == geometry::Space::euclidean ? 1.0 : 2.0) * geometry::disk_from_point(space, at.floor);
+  return {z.real(), z.imag(), at.z};
+}
+
+void set_solid(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at, const Vector3& own, SurfaceKey& key) {
+  key.solid = has_solid(part);
+  if (!key.solid) return;
+  key.pattern_position = part.pattern_position.empty() ? shell_position(room.room.space, at) : own;
+}
+
 bool varies(const place::PlacedRoom& room, int look, bool solid) {
   if (look < 0) return false;
   const place::Look& l = room.looks[static_cast<std::size_t>(look)];
@@ -92,6 +109,27 @@ Color surface_albedo(const place::PlacedRoom& room, const SurfaceKey& key) {
   if (!key.solid || !is_solid(look.material.pattern)) return key.color;
   const double t = solid_pattern(look.material.pattern, key.pattern_position, look.material.cell);
   return (1 - t) * look.material.color + t * look.material.second;
+}
+
+Color triangle_albedo(const place::PlacedRoom& room, const place::PlacedMesh& part, std::size_t triangle, const std::array<double, 3>& b) {
+  SurfaceKey key;
+  key.look = part.look[triangle];
+  key.color = room.looks[part.look[triangle]].color;
+  const mesh::Triangle& t = part.triangles[triangle];
+  geometry::Ambient sum{0, 0, 0};
+  geometry::Vector3 own;
+  double z = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum = sum + b[k] * part.floor[t[k]];
+    z += b[k] * part.z[t[k]];
+    if (!part.uv.empty())
+      for (std::size_t c = 0; c < 2; ++c) key.uv[c] += b[k] * static_cast<double>(part.uv[t[k]][c]);
+    if (!part.pattern_position.empty()) own = own + b[k] * part.pattern_position[t[k]];
+  }
+  // Uv lie in [0, 1]: 1 is the last texel of this repeat, not the first of the next.
+  for (double& c : key.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
+  set_solid(room, part, {geometry::normalised_point(room.room.space, sum), z}, own, key);
+  return surface_albedo(room, key);
 }
 
 }  // namespace orbc::light

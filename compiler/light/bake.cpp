@@ -59,7 +59,7 @@ class BlockBaker {
  public:
   BlockBaker(const Part& part, const Block& block) : part_(part), block_(block) {
     const int look = part.mesh.look[block.first];
-    varies_ = varies(part.room, look, !part.mesh.pattern_position.empty());
+    varies_ = varies(part.room, look, has_solid(part.mesh));
     material_ = &part.room.looks[static_cast<std::size_t>(look)].material;
     plain_ = part.room.looks[static_cast<std::size_t>(look)].color;
   }
@@ -212,19 +212,7 @@ class BlockBaker {
 
   Color albedo(double u, double v) const {
     const InTriangle at = in_triangle(block_, u, v);
-    SurfaceKey key;
-    key.look = part_.mesh.look[at.triangle];
-    key.color = plain_;
-    const mesh::Triangle& t = part_.mesh.triangles[at.triangle];
-    for (int k = 0; k < 3; ++k) {
-      if (!part_.mesh.uv.empty())
-        for (int c = 0; c < 2; ++c) key.uv[c] += at.b[k] * part_.mesh.uv[t[k]][c];
-      if (!part_.mesh.pattern_position.empty()) key.pattern_position = key.pattern_position + at.b[k] * part_.mesh.pattern_position[t[k]];
-    }
-    // Uv lie in [0, 1]: 1 is the last texel of this repeat, not the first of the next.
-    for (double& c : key.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
-    key.solid = !part_.mesh.pattern_position.empty();
-    return surface_albedo(part_.room, key);
+    return triangle_albedo(part_.room, part_.mesh, at.triangle, at.b);
   }
 
   // Every step-th point; those beyond the long side of a single triangle continue it.
@@ -354,7 +342,7 @@ bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
   if (!scene.lamps.empty() || scene.integrator == scene::Integrator::path) return true;
   return std::any_of(room.parts.begin(), room.parts.end(), [&](const PlacedMesh& part) {
     return std::any_of(part.look.begin(), part.look.end(), [&](std::uint16_t look) {
-      return room.looks[look].texture < 0 && varies(room, look, !part.pattern_position.empty());
+      return room.looks[look].texture < 0 && varies(room, look, has_solid(part));
     });
   });
 }

@@ -141,20 +141,9 @@ class PartShine {
     return std::max({std::fabs(x[0] - y[0]), std::fabs(x[1] - y[1]), std::fabs(x[2] - y[2])});
   }
 
-  Color albedo_at(const Block& block, const place::Look& look, double u, double v) const {
+  Color albedo_at(const Block& block, double u, double v) const {
     const InTriangle at = in_triangle(block, u, v);
-    SurfaceKey key;
-    key.look = mesh_.look[at.triangle];
-    key.color = look.color;
-    const mesh::Triangle& t = mesh_.triangles[at.triangle];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!mesh_.uv.empty())
-        for (std::size_t c = 0; c < 2; ++c) key.uv[c] += at.b[k] * static_cast<double>(mesh_.uv[t[k]][c]);
-      if (!mesh_.pattern_position.empty()) key.pattern_position = key.pattern_position + at.b[k] * mesh_.pattern_position[t[k]];
-    }
-    for (double& c : key.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
-    key.solid = !mesh_.pattern_position.empty();
-    return surface_albedo(job_.room, key);
+    return triangle_albedo(job_.room, mesh_, at.triangle, at.b);
   }
 
   // Corners are shared by the blocks that meet there, unless the colour of a metal changes from one to the next.
@@ -164,7 +153,7 @@ class PartShine {
     const std::uint32_t v = normals_.corners[t][static_cast<std::size_t>(k)];
     const bool own = look.material.kind == scene::MaterialKind::metal;
     if (known_[v] && !own) return at_vertex_[v];
-    const Color albedo = own ? albedo_at(block, look, far_u, far_v) : Color{1, 1, 1};
+    const Color albedo = own ? albedo_at(block, far_u, far_v) : Color{1, 1, 1};
     at_vertex_[v] = shine(light_point(job_.room, mesh_, normals_.vertices[v]), albedo, look.material);
     known_[v] = 1;
     return at_vertex_[v];
@@ -175,7 +164,7 @@ class PartShine {
     if (end_u && end_v) return corner(block, look, i > 0, j > 0);
     const double u = static_cast<double>(i) / (grid.w - 1), v = static_cast<double>(j) / (grid.h - 1);
     const InTriangle at = in_triangle(block, u, v);
-    const Color albedo = look.material.kind == scene::MaterialKind::metal ? albedo_at(block, look, u, v) : Color{1, 1, 1};
+    const Color albedo = look.material.kind == scene::MaterialKind::metal ? albedo_at(block, u, v) : Color{1, 1, 1};
     return shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), albedo, look.material);
   }
 

@@ -38,9 +38,7 @@ Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& po
   SurfaceKey key;
   key.look = point.look, key.color = point.color;
   key.uv[0] = point.uv[0], key.uv[1] = point.uv[1];
-  const place::PlacedMesh* part = point.part >= 0 ? &room.parts[static_cast<std::size_t>(point.part)] : nullptr;
-  key.solid = part && !part->pattern_position.empty();
-  key.pattern_position = point.pattern_position;
+  if (point.part >= 0) set_solid(room, room.parts[static_cast<std::size_t>(point.part)], point.at, point.pattern_position, key);
   return surface_albedo(room, key);
 }
 

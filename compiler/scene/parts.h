@@ -38,6 +38,8 @@ struct RoomFacts {
 [[nodiscard]] std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator);
+/// Divides all light of a scene (lamps, ambient, what glows) by the white point that it names, so that this looks white in both roads and every output.
+void balance_white(const Fields& fields, Scene& scene);
 [[nodiscard]] CoverSpec read_cover(Reader& reader, const Node& node, CoverSpec cover);
 
 /// The number of a wall from a key of `walls`, checked against the room; 0 when it is none.

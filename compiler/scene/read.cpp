@@ -51,7 +51,7 @@ Node empty_map() {
 Scene read_root(Reader& reader, const Node& root) {
   Scene scene;
   scene.span = root.span;
-  const Fields fields(reader, root, "the scene", {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "integrator", "bake", "camera", "cover"});
+  const Fields fields(reader, root, "the scene", {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "white", "integrator", "bake", "camera", "cover"});
   if (!fields.is_map()) return scene;
   read_version(fields);
   scene.allow_non_orbifold = fields.boolean("allow_non_orbifold", false);
@@ -72,6 +72,7 @@ Scene read_root(Reader& reader, const Node& root) {
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
   scene.camera = read_camera(reader, part("camera"), facts);
   scene.cover = read_cover(reader, part("cover"), scene.cover);
+  balance_white(fields, scene);
   return scene;
 }
 
