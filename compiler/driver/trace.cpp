@@ -1,7 +1,9 @@
 #include "compiler/driver/trace.h"
 
 #include "compiler/driver/tail.h"
-#include "compiler/light/shade.h"
+#include <algorithm>
+
+#include "compiler/light/bake.h"
 #include "compiler/render/draw.h"
 
 namespace orbc::driver {
@@ -14,6 +16,7 @@ render::Film trace(const Opened& opened, const TraceOptions& options, const Exec
   render::DrawOptions draw;
   draw.light = light.lit ? &light : nullptr;
   draw.samples = options.samples;
+  draw.paths = std::max(1, light::bake_options(opened.scene.bake).passing.samples / 32);
   draw.max_bounces = opened.scene.cover.max_bounces;
   draw.min_weight = opened.scene.cover.min_weight;
   draw.background = opened.scene.cover.background;

@@ -185,22 +185,25 @@ class Net {
     return sum;
   }
 
-  // From the nodes of the same blocks that see the room, ring by ring.
+  // From their neighbours on the grids of blocks that see the room, ring by ring.
   void spread_to_blind() {
     std::vector<std::uint8_t> blind(nodes_.size());
     bool any = false;
     for (std::size_t i = 0; i < nodes_.size(); ++i) blind[i] = nodes_[i].blind, any = any || nodes_[i].blind;
-    for (int ring = 0; ring < 64 && any; ++ring) {
+    for (int ring = 0; ring < 256 && any; ++ring) {
       std::vector<Color> sum(nodes_.size());
       std::vector<int> count(nodes_.size(), 0);
       for (const Mesh& mesh : meshes_) {
-        Color seen;
-        int n = 0;
-        for (const std::int32_t node : mesh.node)
-          if (node >= 0 && !blind[static_cast<std::size_t>(node)]) seen = seen + nodes_[static_cast<std::size_t>(node)].passed, ++n;
-        if (n == 0) continue;
-        for (const std::int32_t node : mesh.node)
-          if (node >= 0 && blind[static_cast<std::size_t>(node)]) sum[static_cast<std::size_t>(node)] = sum[static_cast<std::size_t>(node)] + (1.0 / n) * seen, ++count[static_cast<std::size_t>(node)];
+        const auto tell = [&](std::int32_t from, std::int32_t to) {
+          if (from < 0 || to < 0 || blind[static_cast<std::size_t>(from)] || !blind[static_cast<std::size_t>(to)]) return;
+          sum[static_cast<std::size_t>(to)] = sum[static_cast<std::size_t>(to)] + nodes_[static_cast<std::size_t>(from)].passed;
+          ++count[static_cast<std::size_t>(to)];
+        };
+        for (std::size_t k = 0; k < mesh.node.size(); ++k) {
+          const auto w = static_cast<std::size_t>(mesh.w);
+          if ((k + 1) % w != 0) tell(mesh.node[k], mesh.node[k + 1]), tell(mesh.node[k + 1], mesh.node[k]);
+          if (k + w < mesh.node.size()) tell(mesh.node[k], mesh.node[k + w]), tell(mesh.node[k + w], mesh.node[k]);
+        }
       }
       any = false;
       bool moved = false;
