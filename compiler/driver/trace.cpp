@@ -1,8 +1,8 @@
 #include "compiler/driver/trace.h"
 
-#include "compiler/driver/tail.h"
 #include <algorithm>
 
+#include "compiler/driver/tail.h"
 #include "compiler/light/bake.h"
 #include "compiler/render/draw.h"
 
