@@ -75,8 +75,8 @@ TEST_CASE("two squares become one primitive with the weights in its vertices", "
         R"({"buffer":0,"byteOffset":160,"byteLength":64,"byteStride":8,"target":34962},{"buffer":0,"byteOffset":224,"byteLength":24,"target":34963},)"
         R"({"buffer":0,"byteOffset":248,"byteLength":)" + std::to_string(png.size()) + R"(}],"buffers":[{"byteLength":)" + total + R"(}],)"
         R"("extras":{"orbc_copies":[)"
-        R"({"word":"","bounces":0,"sheet":0,"reversing":false,"weight":[1,1,1],"distance":0,"primitive":0,"first_index":0,"index_count":6},)"
-        R"({"word":"2 1","bounces":2,"sheet":0,"reversing":false,"weight":[0.81,0.6561,0.5],"distance":1.5,"primitive":0,"first_index":6,"index_count":6}]}})");
+        R"({"word":"","bounces":0,"sheet":0,"reversing":false,"weight":[1,1,1],"distance":0,"level":0,"primitive":0,"first_index":0,"index_count":6},)"
+        R"({"word":"2 1","bounces":2,"sheet":0,"reversing":false,"weight":[0.81,0.6561,0.5],"distance":1.5,"level":0,"primitive":0,"first_index":6,"index_count":6}]}})");
   CHECK(at<float>(glb.bin, 0) == 2.0f);        // (2, −0.25, 0) → (2, 0, 0.25)
   CHECK(at<float>(glb.bin, 4) == 0.0f);
   CHECK(at<float>(glb.bin, 8) == 0.25f);
