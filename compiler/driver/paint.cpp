@@ -3,8 +3,8 @@
 namespace orbc::driver {
 
 Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
-                      const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options, const Executor& executor,
-                      const Progress& progress) {
+                      const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options,
+                      const Executor& executor, const Progress& progress) {
   Painted painted;
   if (!light::needs_bake(opened.scene, *opened.room)) {
     auto atlas = light::make_atlas(room, {options.max_side});

@@ -8,19 +8,20 @@
 namespace orbc::driver {
 
 struct PaintOptions {
-  bool highlights = true;           ///< of glossy and metal surfaces, for this eye; false: diffuse light alone
-  int max_side = 16384;             ///< pixels of the atlas
+  bool highlights = true;  ///< of glossy and metal surfaces, for this eye; false: diffuse light alone
+  int max_side = 16384;    ///< pixels of the atlas
 };
 
 /// The colours of a cover: the room in its atlas, and what copies have of their own.
 struct Painted {
   light::Atlas atlas;
-  bool baked = false;               ///< light was worked out: colours vary everywhere
+  bool baked = false;  ///< light was worked out: colours vary everywhere
   light::Highlights highlights;
 };
 
 /// Plain colours, or, in a scene with lamps, the light of the room, and highlights for the eye.
-/// In:          the room to be painted: the opened one, perhaps with further parts (levels of detail), which cast no shadows; its copies, and
+/// In:          the room to be painted: the opened one, perhaps with further parts (levels of detail), which cast no shadows; its copies,
+/// and
 ///              which parts they are drawn from.
 /// Diagnostics: those of light.
 [[nodiscard]] Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,

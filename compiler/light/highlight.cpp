@@ -1,6 +1,7 @@
-// Highlights: GGX lobes around the mirrored way to the eye. Most points of a surface lie in the lobe of no lamp, so a bound over the whole lamp
-// comes first, and only what could show costs shadow rays. Each sample of a lamp stands for its patch of it, as large as its share: its lobe is
-// widened by that (Karis, Real Shading in Unreal Engine 4, 2013, widens by the whole lamp), else polished metal would show the samples one by one.
+// Highlights: GGX lobes around the mirrored way to the eye. Most points of a surface lie in the lobe of no lamp, so a bound over the whole
+// lamp comes first, and only what could show costs shadow rays. Each sample of a lamp stands for its patch of it, as large as its share:
+// its lobe is widened by that (Karis, Real Shading in Unreal Engine 4, 2013, widens by the whole lamp), else polished metal would show the
+// samples one by one.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -48,7 +49,8 @@ struct Lobe {
     const double size = std::sqrt(trace::inner(space, sum, sum));
     if (nl <= 0 || size < 1e-9) return 0;
     const Direction half = (1 / size) * sum;
-    return fresnel(trace::inner(space, way, half)) * facets(std::min(1.0, trace::inner(space, point.normal, half)), wide) * smith(nl, wide) * towards_eye(wide);
+    return fresnel(trace::inner(space, way, half)) * facets(std::min(1.0, trace::inner(space, point.normal, half)), wide) *
+           smith(nl, wide) * towards_eye(wide);
   }
   /// At most that for ways within the angle `turn` of this one.
   [[nodiscard]] double bound(const Direction& way, double turn, double wide) const {
@@ -72,7 +74,8 @@ Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe
   const double turn = middle.length > 1e-9 ? lamp.extent / middle.length : 4, patch = turn / 2;
   const double wide = all > 0 ? std::min(0.25, patch * patch * std::numbers::pi / count) : 0;
   if (middle.exists && turn < 0.5) {
-    const double light = power * image.weight * lamp.gain * falloff(lamp.falloff, lobe.space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
+    const double light = power * image.weight * lamp.gain *
+                         falloff(lamp.falloff, lobe.space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
     if (light < field.options.cut || light * lobe.bound(middle.start, 1.1 * turn, wide) < kFaint) return {};
   }
   Color sum, seen;
@@ -99,7 +102,8 @@ Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe
 
 }  // namespace
 
-Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material, const Color& albedo) {
+Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material,
+                const Color& albedo) {
   const Space space = field.scene.prism.space;
   const double alpha = std::max(material.roughness * material.roughness, 0.002);
   const bool metal = material.kind == scene::MaterialKind::metal;

@@ -1,6 +1,6 @@
-// Highlights move with the eye, so every copy has its own; but they are small. A block of a copy is asked at its corners and on a grid of a few
-// pixels; where nothing shines it stays the shared one. Elsewhere it gets texels of its own, about one for each pixel that it takes in the
-// picture, thinned out again where they are even.
+// Highlights move with the eye, so every copy has its own; but they are small. A block of a copy is asked at its corners and on a grid of a
+// few pixels; where nothing shines it stays the shared one. Elsewhere it gets texels of its own, about one for each pixel that it takes in
+// the picture, thinned out again where they are even.
 #include "compiler/light/highlight_bake.h"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <tuple>
 
+#include "compiler/light/highlight_pack.h"
 #include "compiler/light/way.h"
 
 namespace orbc::light {
@@ -21,10 +22,10 @@ using place::PlacedMesh;
 using scene::Color;
 using trace::Direction;
 
-constexpr int kMaxLevel = 10;         // of a block: 1025 texels a side
-constexpr double kContrast = 3;       // steps of 1/255 between neighbouring points that ask for a point between them
-constexpr double kSmallestPart = 3;   // pixels: highlights of smaller things are left out
-constexpr std::size_t kBatch = 16;    // copies between two looks at the bound
+constexpr int kMaxLevel = 10;        // of a block: 1025 texels a side
+constexpr double kContrast = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
+constexpr double kSmallestPart = 3;  // pixels: highlights of smaller things are left out
+constexpr std::size_t kBatch = 16;   // copies between two looks at the bound
 
 bool shines(const scene::Material& material) {
   return material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
@@ -39,7 +40,9 @@ struct EyeImage {
 
 EyeImage image_of(const cover::Copy& copy, const place::Eye& eye) {
   const geometry::Point foot = eye.room_from_eye * geometry::Point();
-  return {eye.room_from_eye.space, {geometry::inverse(copy.cover_from_room) * foot, copy.storey.sign * (eye.z - copy.storey.offset)}, copy.sheet};
+  return {eye.room_from_eye.space,
+          {geometry::inverse(copy.cover_from_room) * foot, copy.storey.sign * (eye.z - copy.storey.offset)},
+          copy.sheet};
 }
 
 Way way_to(const EyeImage& eye, const Position& from) { return light::way_to(eye.space, from, eye.at, eye.sheet); }
@@ -53,7 +56,7 @@ double pixels_per_unit(const EyeImage& eye, const Way& sight, double per_radian)
 struct Finished {
   std::size_t block = 0;
   Box box;
-  std::vector<Color> shown;           ///< encoded 0…1
+  std::vector<Color> shown;  ///< encoded 0…1
 };
 
 struct Job {
@@ -64,7 +67,7 @@ struct Job {
   const PartNormals& normals;
   std::size_t part;
   EyeImage eye;
-  Color weight;                       ///< of the copy: what is faint needs no detail
+  Color weight;  ///< of the copy: what is faint needs no detail
   double per_radian;
 };
 
@@ -119,9 +122,11 @@ class PartShine {
  private:
   struct Grid {
     int w = 2, h = 2;
-    std::vector<Color> light;         ///< highlights, linear, times the exposure
+    std::vector<Color> light;  ///< highlights, linear, times the exposure
     std::vector<std::uint8_t> rough;
-    [[nodiscard]] std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i); }
+    [[nodiscard]] std::size_t index(int i, int j) const {
+      return static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i);
+    }
   };
 
   Color shine(const LightPoint& point, const Color& albedo, const scene::Material& material) {
@@ -194,9 +199,12 @@ class PartShine {
     const double per_unit = nearness(block);
     if (per_unit <= 0) return std::nullopt;
     const Base base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number]);
-    const auto level = [](double cells) { return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel); };
+    const auto level = [](double cells) {
+      return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel);
+    };
     const int a = level(block.length_u * per_unit / job_.options.fine_px), b = level(block.length_v * per_unit / job_.options.fine_px);
-    const int a0 = std::min(a, level(block.length_u * per_unit / job_.options.probe_px)), b0 = std::min(b, level(block.length_v * per_unit / job_.options.probe_px));
+    const int a0 = std::min(a, level(block.length_u * per_unit / job_.options.probe_px)),
+              b0 = std::min(b, level(block.length_v * per_unit / job_.options.probe_px));
     Grid grid;
     grid.w = (1 << a) + 1, grid.h = (1 << b) + 1;
     int su = 1 << (a - a0), sv = 1 << (b - b0);
@@ -240,7 +248,8 @@ class PartShine {
           mean = mean + (1.0 / static_cast<double>(count)) * grid.light[parents[k]];
           needed = needed || grid.rough[parents[k]];
         }
-        for (std::size_t k = 0; k + 1 < count && !needed; k += 2) needed = difference(grid.light[parents[k]], grid.light[parents[k + 1]]) > kContrast;
+        for (std::size_t k = 0; k + 1 < count && !needed; k += 2)
+          needed = difference(grid.light[parents[k]], grid.light[parents[k + 1]]) > kContrast;
         Color& light = grid.light[grid.index(i, j)];
         light = mean;
         if (!needed) continue;
@@ -304,7 +313,8 @@ class PartShine {
   static std::vector<Color> thinned(const std::vector<Color>& sum, int w, int h, bool columns) {
     std::vector<Color> few;
     for (int j = 0; j < h; j += columns ? 1 : 2)
-      for (int i = 0; i < w; i += columns ? 2 : 1) few.push_back(sum[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)]);
+      for (int i = 0; i < w; i += columns ? 2 : 1)
+        few.push_back(sum[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)]);
     return few;
   }
 
@@ -325,7 +335,8 @@ struct Ball {
 Ball ball_of(Space space, const PlacedMesh& part) {
   geometry::Ambient sum{0, 0, 0};
   double low = 1e300, high = -1e300;
-  for (std::size_t i = 0; i < part.floor.size(); ++i) sum = sum + part.floor[i], low = std::min(low, part.z[i]), high = std::max(high, part.z[i]);
+  for (std::size_t i = 0; i < part.floor.size(); ++i)
+    sum = sum + part.floor[i], low = std::min(low, part.z[i]), high = std::max(high, part.z[i]);
   Ball ball{{geometry::normalised_point(space, sum), (low + high) / 2}, 0};
   for (std::size_t i = 0; i < part.floor.size(); ++i)
     ball.radius = std::max(ball.radius, std::hypot(geometry::distance(space, ball.centre.floor, part.floor[i]), part.z[i] - ball.centre.z));
@@ -336,7 +347,7 @@ Ball ball_of(Space space, const PlacedMesh& part) {
 struct ShinyPart {
   std::size_t part = 0;
   Ball ball;
-  PartNormals own;                    ///< of parts that the field does not know
+  PartNormals own;  ///< of parts that the field does not know
   std::vector<bool> in_model;
 };
 
@@ -370,41 +381,6 @@ std::vector<std::size_t> nearest_first(const std::vector<cover::Copy>& copies, c
   return order;
 }
 
-/// Puts all boxes below the first `top` rows; the picture's size, or nothing when it does not fit.
-std::optional<std::array<int, 2>> pack_below(std::vector<Box*>& boxes, int width, int top, int max_side) {
-  std::stable_sort(boxes.begin(), boxes.end(), [](const Box* a, const Box* b) { return a->height > b->height; });
-  std::int64_t area = 0;
-  for (const Box* box : boxes) area += static_cast<std::int64_t>(box->width) * box->height, width = std::max(width, box->width);
-  int wide = 16;
-  while (wide < width) wide *= 2;
-  while (wide * 2 <= max_side && top + area / wide > wide) wide *= 2;
-  if (wide > max_side) return std::nullopt;
-  std::int64_t y = top, shelf = 0;
-  int x = 0;
-  for (Box* box : boxes) {
-    if (x + box->width > wide) y += shelf, shelf = 0, x = 0;
-    if (y + box->height > max_side) return std::nullopt;
-    box->x = x, box->y = static_cast<int>(y);
-    x += box->width;
-    shelf = std::max<std::int64_t>(shelf, box->height);
-  }
-  return std::array<int, 2>{wide, static_cast<int>(y + shelf)};
-}
-
-void enlarge(Baked& baked, int width, int height) {
-  Atlas& atlas = baked.atlas;
-  mesh::Image larger{width, height, std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128)};
-  for (std::size_t i = 3; i < larger.rgba.size(); i += 4) larger.rgba[i] = 255;
-  for (int y = 0; y < atlas.image.height; ++y) {
-    const auto from = atlas.image.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(y) * atlas.image.width;
-    std::copy(from, from + 4 * static_cast<std::ptrdiff_t>(atlas.image.width), larger.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(y) * width);
-  }
-  const double u = static_cast<double>(atlas.image.width) / width, v = static_cast<double>(atlas.image.height) / height;
-  for (auto& part : atlas.uv)
-    for (auto& at : part) at = {static_cast<float>(u * static_cast<double>(at[0])), static_cast<float>(v * static_cast<double>(at[1]))};
-  atlas.image = std::move(larger);
-}
-
 /// The places of one part's vertices, block by block as the bake made them: corners 00, 10, 01 and, of pairs, 11.
 OwnUv own_uv(const Shining& shining, const Baked& baked) {
   OwnUv own{shining.copy, shining.part, baked.atlas.uv[shining.part]};
@@ -427,7 +403,8 @@ void draw(const Finished& f, mesh::Image& image) {
   for (int y = 0; y < f.box.height; ++y)
     for (int x = 0; x < f.box.width; ++x) {
       const Color& c = f.shown[static_cast<std::size_t>(y) * static_cast<std::size_t>(f.box.width) + static_cast<std::size_t>(x)];
-      std::uint8_t* to = image.rgba.data() + 4 * (static_cast<std::size_t>(f.box.y + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(f.box.x + x));
+      std::uint8_t* to = image.rgba.data() + 4 * (static_cast<std::size_t>(f.box.y + y) * static_cast<std::size_t>(image.width) +
+                                                  static_cast<std::size_t>(f.box.x + x));
       to[0] = static_cast<std::uint8_t>(std::lround(255 * c.r)), to[1] = static_cast<std::uint8_t>(std::lround(255 * c.g));
       to[2] = static_cast<std::uint8_t>(std::lround(255 * c.b));
     }
@@ -445,8 +422,8 @@ trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye
 }
 
 Highlights bake_highlights(const place::PlacedRoom& room, const LightField& field, const std::vector<cover::Copy>& copies,
-                           const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked, const Executor& executor,
-                           const Progress& progress) {
+                           const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked,
+                           const Executor& executor, const Progress& progress) {
   Highlights result;
   const std::vector<ShinyPart> parts = shiny_parts(room, field, drawn);
   const double per_radian = place::pixels_per_radian(eye);

@@ -8,11 +8,11 @@
 namespace orbc::light {
 
 struct HighlightOptions {
-  double tolerance = 1;                         ///< in steps of 1/255 of the picture: smaller highlights are left out
-  double probe_px = 4;                          ///< pixels between points that are always asked
-  double fine_px = 0.8;                         ///< and where highlights change
-  int max_side = 16384;                         ///< pixels of the atlas
-  std::uint64_t max_texels = 40'000'000;        ///< for highlights; the nearest copies come first
+  double tolerance = 1;                   ///< in steps of 1/255 of the picture: smaller highlights are left out
+  double probe_px = 4;                    ///< pixels between points that are always asked
+  double fine_px = 0.8;                   ///< and where highlights change
+  int max_side = 16384;                   ///< pixels of the atlas
+  std::uint64_t max_texels = 40'000'000;  ///< for highlights; the nearest copies come first
 };
 
 /// Which parts of the baked room copies are drawn from. No models: every copy from all parts that the field knows.
@@ -24,36 +24,36 @@ struct DrawnParts {
 /// Places in the atlas of a part of one copy, in place of those that all copies share.
 struct OwnUv {
   std::size_t copy = 0, part = 0;
-  std::vector<std::array<float, 2>> uv;         ///< parallel to the vertices of the baked part
+  std::vector<std::array<float, 2>> uv;  ///< parallel to the vertices of the baked part
 };
 
 struct HighlightCounts {
   std::uint64_t points = 0, texels = 0, blocks = 0;
-  std::size_t copies = 0;                       ///< with highlights of their own
-  std::size_t left_out = 0;                     ///< copies beyond max_texels: they show their highlights nowhere
+  std::size_t copies = 0;    ///< with highlights of their own
+  std::size_t left_out = 0;  ///< copies beyond max_texels: they show their highlights nowhere
 };
 
 struct Highlights {
-  std::vector<OwnUv> own;                       ///< by copy, then part
+  std::vector<OwnUv> own;  ///< by copy, then part
   HighlightCounts counts;
 };
 
 /// Whether a room has surfaces whose light depends on where the eye is: glossy ones and metals, in a field with lamps.
 [[nodiscard]] bool needs_highlights(const place::PlacedRoom& room, const LightField& field);
 
-/// Bakes what glossy and metal surfaces send to the given eye, for every copy by itself: as seen from a copy, the eye is its image under that
-/// copy's inverse map.
-/// In:    the room and the field that `baked` was made of; copies of the room, and what they are drawn from.
-/// Makes: more rows below the picture of `baked`, in which blocks with a highlight have texels of their own for a copy: as coarse as the copy
-///        is far away; all others, and far copies, keep the diffuse ones. Places in the shared atlas are moved to the new size. Same bytes for
-///        any executor.
+/// Bakes what glossy and metal surfaces send to the given eye, for every copy by itself: as seen from a copy, the eye is its image under
+/// that copy's inverse map. In:    the room and the field that `baked` was made of; copies of the room, and what they are drawn from.
+/// Makes: more rows below the picture of `baked`, in which blocks with a highlight have texels of their own for a copy: as coarse as the
+/// copy
+///        is far away; all others, and far copies, keep the diffuse ones. Places in the shared atlas are moved to the new size. Same bytes
+///        for any executor.
 /// Error: colours add up in the 8 bits of the atlas; `tolerance` besides.
 [[nodiscard]] Highlights bake_highlights(const place::PlacedRoom& room, const LightField& field, const std::vector<cover::Copy>& copies,
                                          const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked,
                                          const Executor& executor, const Progress& progress = {});
 
-/// The unit direction at a point of the room in which the eye sees that point of a copy: that of the geodesic to the eye's image, on S² over
-/// as many half turns as the copy's sheet has. Nothing exists where the point is the focus of all directions: the zero vector.
+/// The unit direction at a point of the room in which the eye sees that point of a copy: that of the geodesic to the eye's image, on S²
+/// over as many half turns as the copy's sheet has. Nothing exists where the point is the focus of all directions: the zero vector.
 [[nodiscard]] trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const geometry::Position& at);
 
 }  // namespace orbc::light

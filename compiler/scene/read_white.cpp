@@ -1,5 +1,5 @@
-// The white point. Light adds up linearly, so to divide every source by it is to divide the picture by it, up to the limit of what a surface
-// can show; and all outputs agree, since none of them knows. Luminance: Rec. 709.
+// The white point. Light adds up linearly, so to divide every source by it is to divide the picture by it, up to the limit of what a
+// surface can show; and all outputs agree, since none of them knows. Luminance: Rec. 709.
 #include <algorithm>
 
 #include "compiler/scene/parts.h"

@@ -99,12 +99,17 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = vertices.triangles[t][k];
         if (own.uv[v] == baked.atlas.uv[own.part][v]) continue;
-        const light::LightPoint point = light::light_point(s.room, part, field.normals[own.part].vertices[field.normals[own.part].corners[t][k]]);
+        const light::LightPoint point =
+            light::light_point(s.room, part, field.normals[own.part].vertices[field.normals[own.part].corners[t][k]]);
         const scene::Material& material = s.room.looks[part.look[t]].material;
-        const scene::Color gloss = light::highlight(field, point, light::direction_to_eye(s.copies[own.copy], s.eye, point.at), material, material.color);
+        const scene::Color gloss =
+            light::highlight(field, point, light::direction_to_eye(s.copies[own.copy], s.eye, point.at), material, material.color);
         const scene::Color all = light::radiance_out(field, material, material.color, light::irradiance(field, point)) + gloss;
-        const int x = static_cast<int>(static_cast<double>(own.uv[v][0]) * baked.atlas.image.width), y = static_cast<int>(static_cast<double>(own.uv[v][1]) * baked.atlas.image.height);
-        const int code = baked.atlas.image.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(baked.atlas.image.width) + static_cast<std::size_t>(x))];
+        const int x = static_cast<int>(static_cast<double>(own.uv[v][0]) * baked.atlas.image.width),
+                  y = static_cast<int>(static_cast<double>(own.uv[v][1]) * baked.atlas.image.height);
+        const int code =
+            baked.atlas.image
+                .rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(baked.atlas.image.width) + static_cast<std::size_t>(x))];
         CHECK(code == Approx(255 * scene::encode_srgb(std::min(1.0, field.exposure * all.r))).margin(2.1));
         brightest = std::max(brightest, gloss.r);
         ++checked;
@@ -114,7 +119,8 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
   CHECK(brightest > 0.2);
   // What all copies share keeps its texels.
   for (int y = 0; y < before.height; ++y)
-    CHECK(std::equal(before.rgba.begin() + 4 * y * before.width, before.rgba.begin() + 4 * (y + 1) * before.width, baked.atlas.image.rgba.begin() + 4 * y * baked.atlas.image.width));
+    CHECK(std::equal(before.rgba.begin() + 4 * y * before.width, before.rgba.begin() + 4 * (y + 1) * before.width,
+                     baked.atlas.image.rgba.begin() + 4 * y * baked.atlas.image.width));
 }
 
 TEST_CASE("highlights are the same bytes for any executor, and none are baked for matte rooms", "[light]") {

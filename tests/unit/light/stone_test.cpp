@@ -28,7 +28,8 @@ TEST_CASE("floor, ceiling and walls are cut from one stone, the same for a trian
       for (const std::array<double, 3>& b : {std::array<double, 3>{0.2, 0.3, 0.5}, {0.7, 0.1, 0.2}, {0.05, 0.9, 0.05}}) {
         trace::SurfacePoint point;
         geometry::Ambient sum{0, 0, 0};
-        for (std::size_t k = 0; k < 3; ++k) sum = sum + b[k] * part.floor[part.triangles[t][k]], point.at.z += b[k] * part.z[part.triangles[t][k]];
+        for (std::size_t k = 0; k < 3; ++k)
+          sum = sum + b[k] * part.floor[part.triangles[t][k]], point.at.z += b[k] * part.z[part.triangles[t][k]];
         point.at.floor = geometry::normalised_point(room.room.space, sum);
         point.part = static_cast<int>(p), point.look = part.look[t];
         const scene::Color here = light::triangle_albedo(room, part, t, b), there = light::surface_color(room, point);

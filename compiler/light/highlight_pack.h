@@ -1,0 +1,17 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "compiler/light/bake.h"
+
+namespace orbc::light {
+
+/// Puts boxes on shelves below the first `top` rows of a picture. Makes: its size, as wide as before or wider, or nothing when it does not
+/// fit.
+[[nodiscard]] std::optional<std::array<int, 2>> pack_below(std::vector<Box*>& boxes, int width, int top, int max_side);
+
+/// Gives the atlas more room to the right and below, and moves the places in it. In: a size not smaller than before.
+void enlarge(Baked& baked, int width, int height);
+
+}  // namespace orbc::light
