@@ -107,7 +107,7 @@ int compile(const CompileArguments& a, const Common& common) {
   bar.clear();
   const driver::Report& r = compiled->report;
   if (!common.quiet)
-    fmt::print(stderr, "{}: {} copies, {} triangles, chords within {:.3g} px\n", a.output == "-" ? "standard output" : a.output, r.copies, r.triangles, r.error_bound_px);
+    fmt::print(stderr, "{}: {} copies, {} triangles, true within {:.3g} px\n", a.output == "-" ? "standard output" : a.output, r.copies, r.triangles, r.error_bound_px);
   return kDone;
 }
 

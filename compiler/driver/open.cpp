@@ -38,7 +38,7 @@ Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
   if (!read_in) return read_in.error();
   Opened opened{std::move(read_in->scene), nullptr, {}, std::move(read_in->notes)};
   apply(overrides, opened.scene);
-  opened.expected_background = overrides.expected_background;
+  opened.expected_background = overrides.expected_background || opened.scene.cover.background_expected;
   const auto room = room::realise(opened.scene.orbifold, opened.scene.room.shape, opened.scene.allow_non_orbifold);
   if (!room) return located(room.error(), opened.scene.room.shape.span.source ? opened.scene.room.shape.span : opened.scene.span);
   auto furnished = place::furnish(opened.scene, *room);

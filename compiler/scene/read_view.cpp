@@ -114,7 +114,9 @@ CoverSpec read_cover(Reader& reader, const Node& node, CoverSpec cover) {
   cover.max_bounces = fields.integer("max_bounces", cover.max_bounces, 0, 1000);
   cover.min_weight = fields.number("min_weight", cover.min_weight, kUnit);
   cover.min_pixels = fields.number("min_pixels", cover.min_pixels, kDistance);
-  cover.background = fields.color("background", cover.background);
+  const Node* background = fields.find("background");
+  if (background && background->kind == NodeKind::scalar && background->text == "expected") cover.background_expected = true;
+  else cover.background = fields.color("background", cover.background);
   return cover;
 }
 

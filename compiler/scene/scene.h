@@ -190,6 +190,7 @@ struct CoverSpec {
   double min_weight = 0;            ///< paths whose weight (largest channel) is below it end
   double min_pixels = 0;            ///< exports only: copies smaller than this in the picture are left out
   Color background{0, 0, 0};        ///< what is seen where a path ends at a mirror
+  bool background_expected = false; ///< instead of it the colour expected beyond, times the path's weight
 };
 
 struct Scene {

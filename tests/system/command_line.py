@@ -122,7 +122,7 @@ with folder() as name:
     done = run(['bash', '-c', f'ulimit -f 100; exec {ORBC} compile {OCTANT} -o {where}/large.glb'])
     check(done.returncode == 3 and sorted(os.listdir(where)) == before, 'a file that grows too large leaves nothing')
     if b'__asan_init' not in ORBC.read_bytes():   # the address sanitizer's shadow memory needs terabytes of addresses
-        done = run(['bash', '-c', f'ulimit -v 150000; exec {ORBC} compile {OCTANT} --max-bounces 40 -o {where}/large.glb'])
+        done = run(['bash', '-c', f'ulimit -v 150000; exec {ORBC} compile {OCTANT} --max-bounces 40 --no-lod -o {where}/large.glb'])
         check(done.returncode == 3 and sorted(os.listdir(where)) == before, f'too little memory is told: {done.stderr.decode()[:100]}')
     done = orbc('compile', OCTANT, '--max-memory', '1MiB', '-o', where / 'x.glb')
     check(done.returncode == 1 and b'max_bounces' in done.stderr, 'the planner refuses, and names what fits')
@@ -135,7 +135,7 @@ with folder() as name:
     done = orbc('compile', OCTANT, '-o', where / 'x.glb')
     check(b'\r' not in done.stderr and b'17 copies' in done.stderr, 'no progress bar in a pipe')
     report = json.loads(orbc('compile', OCTANT, '-o', where / 'x.glb', '--quiet', '--report', '-').stdout)
-    check(report['copies'] == 17 and report['triangles'] > 1000 and report['error_bound_px'] <= 0.25, 'the report')
+    check(report['copies'] == 17 and report['triangles'] > 1000 and report['error_bound_px'] <= 0.5, 'the report: a quarter pixel of bending and one of levels of detail')
     check(json.loads(orbc('compile', OCTANT, '--plan').stdout)['copies'] == 17, 'the plan')
 
     # Ctrl-C leaves no half file
