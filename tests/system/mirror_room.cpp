@@ -1,10 +1,15 @@
-// The Euclidean room as POV-Ray sees it with true mirrors: only the room itself is exported, its mirrors are POV-Ray's own. Whatever unfolding
-// and copying do wrong, this picture does right.   mirror_room SCENE.yaml OUT.pov
+// The Euclidean room as POV-Ray sees it with true mirrors: only the room itself is exported, its mirrors are POV-Ray's own. Whatever
+// unfolding and copying do wrong, this picture does right. A scene with point lamps is lit by POV-Ray as well, straight from the lamps:
+// nothing of ours but points, triangles and normals is in it.   mirror_room SCENE.yaml OUT.pov
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "compiler/driver/compile.h"
+#include "compiler/light/lamp.h"
+#include "compiler/light/normals.h"
 #include "compiler/room/room.h"
 #include "exporters/pov/write_pov.h"
 
@@ -23,6 +28,53 @@ std::string mirror_quad(const driver::Opened& opened, const place::PlacedMirror&
                      "reflection {{ rgb <{:.17g},{:.17g},{:.17g}> }} }} }} }}\n", corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1), c.r, c.g, c.b);
 }
 
+std::string vector(double x, double y, double z) { return fmt::format("<{:.9g},{:.9g},{:.9g}>", x, y, z); }
+std::string vector(const scene::Color& c) { return vector(c.r, c.g, c.b); }
+
+/// A part as matte triangles with the normals by which it is lit. Ambient light is emission times the pigment, and adds to what lamps give.
+std::string matte_part(const driver::Opened& opened, const place::PlacedMesh& part) {
+  const geometry::Isometry eye_from_room = geometry::inverse(opened.eye.room_from_eye);
+  const light::PartNormals normals = light::part_normals(*opened.room, part);
+  if (part.triangles.empty()) return {};
+  std::string points, directions, faces, looks;
+  for (const light::ShadingVertex& v : normals.vertices) {
+    const geometry::Point at = part.floor[v.vertex], p = eye_from_room * at;
+    const geometry::Point beside = eye_from_room * geometry::Point(at.w, at.x + v.normal.floor.x, at.y + v.normal.floor.y);
+    points += ", " + vector(p.x, p.y, part.z[v.vertex]);
+    directions += ", " + vector(beside.x - p.x, beside.y - p.y, v.normal.z);
+  }
+  for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+    const auto& c = normals.corners[t];
+    faces += fmt::format(", <{},{},{}>,{}", c[0], c[1], c[2], part.look[t]);
+  }
+  for (const place::Look& look : opened.room->looks)
+    looks += fmt::format(", texture {{ pigment {{ rgb {} }} finish {{ ambient 0 diffuse 1 emission rgb {} }} }}", vector(look.color),
+                         vector(opened.scene.exposure * opened.scene.ambient));
+  return fmt::format(
+      "mesh2 {{ vertex_vectors {{ {0}{1} }} normal_vectors {{ {0}{2} }} texture_list {{ {3}{4} }} face_indices {{ {5}{6} }} }}\n",
+      normals.vertices.size(), points, directions, opened.room->looks.size(), looks, part.triangles.size(), faces);
+}
+
+/// Radiance of a matte surface is albedo · E/π with E = Φ·cosθ/(4πr²); POV-Ray shows albedo · c·cosθ · 2/(1 + (r/D)²), which for D ≪ r is
+/// 2cD²/r². So c = exposure · Φ/(8π²D²), too large by D²/r² of itself: with D = 1/1000 less than 1/10,000 from r = 1/10 on.
+std::string point_lamp(const driver::Opened& opened, const light::HungLamp& lamp) {
+  constexpr double kFadeDistance = 0.001;
+  const geometry::Point p = geometry::inverse(opened.eye.room_from_eye) * lamp.centre.floor;
+  const double gain = opened.scene.exposure / (8 * std::numbers::pi * std::numbers::pi * kFadeDistance * kFadeDistance);
+  return fmt::format("light_source {{ {}, rgb {} fade_power 2 fade_distance {} }}\n", vector(p.x, p.y, lamp.centre.z),
+                     vector(gain * lamp.power), kFadeDistance);
+}
+
+/// The room and its lamps, instead of the room with its light in an atlas.
+Result<std::string> lit_room(const driver::Opened& opened) {
+  const auto hung = light::hang_lamps(opened.scene, opened.room->room);
+  if (!hung) return hung.error();
+  std::string text;
+  for (const place::PlacedMesh& part : opened.room->parts) text += matte_part(opened, part);
+  for (const light::HungLamp& lamp : hung->lamps) text += point_lamp(opened, lamp);
+  return text;
+}
+
 void write(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 }  // namespace
@@ -33,15 +85,26 @@ int main(int argc, char** argv) {
   overrides.max_bounces = 0;
   const auto opened = driver::open_scene(argv[1], overrides);
   if (!opened) return fmt::print(stderr, "{}", to_text(opened.error())), 1;
-  const auto compiled = driver::compile(*opened, {}, serial_executor());
-  if (!compiled) return fmt::print(stderr, "{}", to_text(compiled.error())), 1;
+  driver::Product product;  // of a lit room only camera and background
+  std::string lit;
+  if (opened->scene.lamps.empty()) {
+    auto compiled = driver::compile(*opened, {}, serial_executor());
+    if (!compiled) return fmt::print(stderr, "{}", to_text(compiled.error())), 1;
+    product = std::move(compiled->product);
+  } else {
+    auto text = lit_room(*opened);
+    if (!text) return fmt::print(stderr, "{}", to_text(text.error())), 1;
+    product.eye = opened->eye;
+    product.background = opened->scene.cover.background;
+    lit = std::move(*text);
+  }
   const std::string out = argv[2];
   pov::PovOptions options;
   options.name = out.substr(out.rfind('/') + 1, out.rfind('.') - out.rfind('/') - 1);
-  for (driver::File& file : pov::write_pov(compiled->product, options)) {
+  for (driver::File& file : pov::write_pov(product, options)) {
     if (!file.name.empty()) write(out.substr(0, out.rfind('/') + 1) + file.name, file.bytes);
     else {
-      file.bytes += "global_settings { assumed_gamma 1.0 adc_bailout 0 max_trace_level 60 }\n";
+      file.bytes += "global_settings { assumed_gamma 1.0 adc_bailout 0 max_trace_level 60 }\n" + lit;
       for (const place::PlacedMirror& mirror : opened->room->mirrors) file.bytes += mirror_quad(*opened, mirror);
       write(out, file.bytes);
     }
