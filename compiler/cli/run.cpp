@@ -42,7 +42,7 @@ void add_compile_options(CLI::App& command, CompileArguments& a) {
   command.add_option("--max-triangles", a.max_triangles, "Never make more triangles than this: the picture's error is let grow until they suffice, the report says how far")->type_name("N");
   command.add_flag("--no-lod", a.no_lod, "Draw far copies in all detail, too");
   command.add_option("--max-memory", a.max_memory, "Refuse what would take more memory than this")->capture_default_str()->type_name("SIZE");
-  command.add_flag("!--no-highlights", a.highlights, "Leave out what glossy surfaces and metals show to this eye alone");
+  command.add_flag("!--no-highlights", a.highlights, "Leave out what glossy surfaces, metals, mirrors and glass show to this eye alone");
   command.add_option("--max-atlas", a.max_atlas, "Largest side of the atlas in pixels; some viewers hold no more than 8192")->capture_default_str()->check(CLI::Range(64, 16384))->type_name("PX");
 }
 

@@ -1,5 +1,7 @@
 #include "compiler/driver/paint.h"
 
+#include "compiler/driver/see_in.h"
+
 namespace orbc::driver {
 
 Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
@@ -22,6 +24,7 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
   if (options.highlights && light::needs_highlights(*opened.room, *field)) {
     light::HighlightOptions shine;
     shine.max_side = options.max_side;
+    if (light::has_mirror_or_glass(*opened.room)) shine.seen_in = see_in(opened, executor);
     painted.highlights = light::bake_highlights(room, *field, copies, drawn, opened.eye, shine, *baked, executor, progress);
   }
   painted.atlas = std::move(baked->atlas);

@@ -8,7 +8,7 @@
 namespace orbc::driver {
 
 struct PaintOptions {
-  bool highlights = true;  ///< of glossy and metal surfaces, for this eye; false: diffuse light alone
+  bool highlights = true;  ///< of glossy and metal surfaces, and what is seen in mirror and glass objects, for this eye; false: diffuse light alone
   int max_side = 16384;    ///< pixels of the atlas
 };
 

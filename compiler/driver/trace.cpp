@@ -8,14 +8,9 @@
 
 namespace orbc::driver {
 
-render::Film trace(const Opened& opened, const TraceOptions& options, const Executor& executor, const Progress& progress) {
-  report(progress, "preparing", 0, 0);
-  const orbc::trace::TraceScene scene = orbc::trace::prepare(*opened.room, executor);
-  // The lamps have been hung once already, when the scene was opened: they hang.
-  const light::LightField light = light::prepare_light(opened.scene, *opened.room, light::light_options(opened.scene), executor).value();
+render::DrawOptions draw_options(const Opened& opened, const light::LightField& light, const Executor& executor) {
   render::DrawOptions draw;
   draw.light = light.lit ? &light : nullptr;
-  draw.samples = options.samples;
   draw.paths = std::max(1, light::bake_options(opened.scene.bake).passing.samples / 32);
   draw.max_bounces = opened.scene.cover.max_bounces;
   draw.min_weight = opened.scene.cover.min_weight;
@@ -23,6 +18,16 @@ render::Film trace(const Opened& opened, const TraceOptions& options, const Exec
   // The film is exposed as a whole; the background is shown as it is.
   if (light.lit && light.exposure > 0) draw.background = (1 / light.exposure) * draw.background;
   if (opened.expected_background) draw.background = look_beyond(opened, true, executor).color, draw.weighs_background = true;
+  return draw;
+}
+
+render::Film trace(const Opened& opened, const TraceOptions& options, const Executor& executor, const Progress& progress) {
+  report(progress, "preparing", 0, 0);
+  const orbc::trace::TraceScene scene = orbc::trace::prepare(*opened.room, executor);
+  // The lamps have been hung once already, when the scene was opened: they hang.
+  const light::LightField light = light::prepare_light(opened.scene, *opened.room, light::light_options(opened.scene), executor).value();
+  render::DrawOptions draw = draw_options(opened, light, executor);
+  draw.samples = options.samples;
   return render::draw(scene, opened.eye, draw, executor, progress);
 }
 

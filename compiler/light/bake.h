@@ -22,7 +22,11 @@ struct BakeOptions {
 /// Light for a bake of that quality: a draft leaves out more of what adds little.
 [[nodiscard]] LightOptions baked_light_options(const scene::Scene& scene);
 
-/// Whether the plain colours of `make_atlas` do not suffice: there are lamps, or solid patterns (which a field without lamps shows unlit).
+/// Whether a room has mirror or glass objects.
+[[nodiscard]] bool has_mirror_or_glass(const place::PlacedRoom& room);
+
+/// Whether the plain colours of `make_atlas` do not suffice: there are lamps, mirror or glass objects, or solid patterns (which a field
+/// without lamps shows unlit).
 [[nodiscard]] bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room);
 
 /// What was baked, for reports.

@@ -31,6 +31,10 @@ bool shines(const scene::Material& material) {
   return material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
 }
 
+bool mirrors_or_refracts(const scene::Material& material) {
+  return material.kind == scene::MaterialKind::mirror || material.kind == scene::MaterialKind::glass;
+}
+
 /// The eye as a copy sees it.
 struct EyeImage {
   Space space = Space::euclidean;
@@ -66,16 +70,18 @@ struct Job {
   const Baked& baked;
   const PartNormals& normals;
   std::size_t part;
+  const cover::Copy& copy;
   EyeImage eye;
   Color weight;  ///< of the copy: what is faint needs no detail
   double per_radian;
 };
 
-/// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure.
+/// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure; none of what is all mirror or glass.
 class Base {
  public:
-  Base(const mesh::Image& image, const Box& box) : image_(image), box_(box) {}
+  Base(const mesh::Image& image, const Box& box, bool none) : image_(image), box_(box), none_(none) {}
   [[nodiscard]] Color at(double u, double v) const {
+    if (none_) return {};
     const double x = u * (box_.width - 1), y = v * (box_.height - 1);
     const int i = std::min(static_cast<int>(x), box_.width - 2), j = std::min(static_cast<int>(y), box_.height - 2);
     const double s = x - i, t = y - j;
@@ -98,6 +104,7 @@ class Base {
   }
   const mesh::Image& image_;
   const Box& box_;
+  bool none_;
 };
 
 /// The highlights of a part in one copy.
@@ -108,11 +115,12 @@ class PartShine {
 
   std::vector<Finished> run() {
     std::vector<Finished> done;
-    known_.assign(normals_.vertices.size(), 0);
+    known_.assign(normals_.vertices.size(), -1);
     at_vertex_.resize(normals_.vertices.size());
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       const place::Look& look = job_.room.looks[mesh_.look[blocks_[i].first]];
-      if (!shines(look.material)) continue;
+      whole_ = job_.options.seen_in && mirrors_or_refracts(look.material);
+      if (!whole_ && !shines(look.material)) continue;
       if (auto finished = bake_block(i, look)) done.push_back(std::move(*finished));
     }
     return done;
@@ -133,6 +141,7 @@ class PartShine {
     ++asked;
     const Way sight = way_to(job_.eye, point.at);
     if (!sight.exists) return {};
+    if (whole_) return job_.options.seen_in(point.at, sight.start, job_.copy);
     return job_.field.exposure * highlight(job_.field, point, sight.start, material, albedo);
   }
   /// Of a colour in the copy's weight, as the picture encodes it.
@@ -157,10 +166,11 @@ class PartShine {
     const int k = far_u && far_v ? block.second_turn[0] : block.turn[static_cast<std::size_t>(far_u ? 1 : far_v ? 2 : 0)];
     const std::uint32_t v = normals_.corners[t][static_cast<std::size_t>(k)];
     const bool own = look.material.kind == scene::MaterialKind::metal;
-    if (known_[v] && !own) return at_vertex_[v];
+    const int number = mesh_.look[t];
+    if (known_[v] == number && !own) return at_vertex_[v];
     const Color albedo = own ? albedo_at(block, far_u, far_v) : Color{1, 1, 1};
     at_vertex_[v] = shine(light_point(job_.room, mesh_, normals_.vertices[v]), albedo, look.material);
-    known_[v] = 1;
+    known_[v] = number;
     return at_vertex_[v];
   }
 
@@ -198,7 +208,7 @@ class PartShine {
     const Block& block = blocks_[number];
     const double per_unit = nearness(block);
     if (per_unit <= 0) return std::nullopt;
-    const Base base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number]);
+    const Base base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number], whole_);
     const auto level = [](double cells) {
       return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel);
     };
@@ -210,7 +220,7 @@ class PartShine {
     int su = 1 << (a - a0), sv = 1 << (b - b0);
     // Most blocks end here, so the grid itself is not yet made.
     std::vector<Color> probes;
-    bool any = false;
+    bool any = whole_;
     for (int j = 0; j < grid.h; j += sv)
       for (int i = 0; i < grid.w; i += su) {
         probes.push_back(valid(block, grid, i, j) ? ask(block, look, grid, i, j) : Color{});
@@ -265,7 +275,7 @@ class PartShine {
   std::optional<Finished> finish(std::size_t number, const Block& block, const Grid& grid, const Base& base) const {
     int w = grid.w, h = grid.h;
     std::vector<Color> sum(grid.light.size());
-    bool any = false;
+    bool any = whole_;
     for (int j = 0; j < h; ++j)
       for (int i = 0; i < w; ++i) {
         if (!valid(block, grid, i, j)) continue;
@@ -322,7 +332,8 @@ class PartShine {
   const PlacedMesh& mesh_;
   const PartNormals& normals_;
   const std::vector<Block>& blocks_;
-  std::vector<std::uint8_t> known_;
+  bool whole_ = false;          ///< the block's whole light depends on the eye: mirror and glass
+  std::vector<int> known_;      ///< for which look
   std::vector<Color> at_vertex_;
 };
 
@@ -351,12 +362,13 @@ struct ShinyPart {
   std::vector<bool> in_model;
 };
 
-std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightField& field, const DrawnParts& drawn) {
+std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightField& field, const DrawnParts& drawn, bool seen_in) {
+  const auto own_light = [&](const scene::Material& m) { return shines(m) || (seen_in && mirrors_or_refracts(m)); };
   std::vector<ShinyPart> parts;
   const std::size_t count = drawn.models.empty() ? std::min(room.parts.size(), field.normals.size()) : room.parts.size();
   for (std::size_t p = 0; p < count; ++p) {
     const PlacedMesh& mesh = room.parts[p];
-    if (std::none_of(mesh.look.begin(), mesh.look.end(), [&](std::uint16_t look) { return shines(room.looks[look].material); })) continue;
+    if (std::none_of(mesh.look.begin(), mesh.look.end(), [&](std::uint16_t look) { return own_light(room.looks[look].material); })) continue;
     ShinyPart part{p, ball_of(room.room.space, mesh), {}, {}};
     for (const auto& model : drawn.models) part.in_model.push_back(std::find(model.begin(), model.end(), p) != model.end());
     if (p >= field.normals.size()) part.own = part_normals(room, mesh);
@@ -413,6 +425,7 @@ void draw(const Finished& f, mesh::Image& image) {
 }  // namespace
 
 bool needs_highlights(const place::PlacedRoom& room, const LightField& field) {
+  if (has_mirror_or_glass(room)) return true;
   if (!field.lit || field.images.empty()) return false;
   return std::any_of(room.looks.begin(), room.looks.end(), [](const place::Look& look) { return shines(look.material); });
 }
@@ -425,7 +438,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
                            const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked,
                            const Executor& executor, const Progress& progress) {
   Highlights result;
-  const std::vector<ShinyPart> parts = shiny_parts(room, field, drawn);
+  const std::vector<ShinyPart> parts = shiny_parts(room, field, drawn, static_cast<bool>(options.seen_in));
   const double per_radian = place::pixels_per_radian(eye);
   std::vector<Shining> all;
   const std::vector<std::size_t> order = nearest_first(copies, eye);
@@ -441,7 +454,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
       if (!part.in_model.empty() && !part.in_model[drawn.model_of_copy[shining.copy]]) return;
       const cover::Copy& copy = copies[shining.copy];
       const PartNormals& normals = part.part < field.normals.size() ? field.normals[part.part] : part.own;
-      const Job job{room, field, options, baked, normals, shining.part, image_of(copy, eye), copy.weight, per_radian};
+      const Job job{room, field, options, baked, normals, shining.part, copy, image_of(copy, eye), copy.weight, per_radian};
       const Ball& ball = part.ball;
       const Way sight = way_to(job.eye, ball.centre);
       const bool near = sight.length < 2 * ball.radius;

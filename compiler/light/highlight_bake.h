@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/cover/copy.h"
@@ -7,7 +9,12 @@
 
 namespace orbc::light {
 
+/// What the eye sees in a mirror or glass object: at a point of the room near its surface, in a copy; `to_eye` is the unit direction there in
+/// which the eye lies. Makes: colour × exposure as the copy's texture shows it, so without the copy's weight. Thread-safe.
+using SeenIn = std::function<scene::Color(const geometry::Position& at, const trace::Direction& to_eye, const cover::Copy& copy)>;
+
 struct HighlightOptions {
+  SeenIn seen_in;                         ///< none: mirror and glass objects keep their plain colours
   double tolerance = 1;                   ///< in steps of 1/255 of the picture: smaller highlights are left out
   double probe_px = 4;                    ///< pixels between points that are always asked
   double fine_px = 0.8;                   ///< and where highlights change
@@ -38,10 +45,10 @@ struct Highlights {
   HighlightCounts counts;
 };
 
-/// Whether a room has surfaces whose light depends on where the eye is: glossy ones and metals, in a field with lamps.
+/// Whether a room has surfaces whose light depends on where the eye is: mirror and glass, and in a field with lamps glossy ones and metals.
 [[nodiscard]] bool needs_highlights(const place::PlacedRoom& room, const LightField& field);
 
-/// Bakes what glossy and metal surfaces send to the given eye, for every copy by itself: as seen from a copy, the eye is its image under
+/// Bakes what glossy and metal surfaces send to the given eye, and what it sees in mirror and glass objects, for every copy by itself: as seen from a copy, the eye is its image under
 /// that copy's inverse map. In:    the room and the field that `baked` was made of; copies of the room, and what they are drawn from.
 /// Makes: more rows below the picture of `baked`, in which blocks with a highlight have texels of their own for a copy: as coarse as the
 /// copy

@@ -36,6 +36,18 @@ struct Walker {
     light(trace::follow(scene, trace::leave(scene, at, direction), follow), share, depth + 1);
   }
 
+  // The surface that the triangles stand for: seen in facets, mirror and glass would be mosaics. Not where it turns away from the ray,
+  // or would mirror it into the triangle.
+  void smooth(trace::SurfacePoint& point, const trace::Hit& hit) {
+    if (!options.light || hit.target != trace::Target::triangle) return;
+    const geometry::Space space = scene.room->room.space;
+    Direction normal = light::light_point(*options.light, *scene.room, point, hit).normal;
+    if (trace::inner(space, normal, point.normal) < 0) normal = -normal;
+    const Direction flat = point.normal;
+    if (trace::inner(space, normal, point.arriving) < 0) point.normal = normal;
+    if (trace::inner(space, light::mirrored(scene, point), flat) <= 0) point.normal = flat;
+  }
+
   // What a surface that is neither mirror nor glass shows under the lamps.
   void lit(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color, double share) {
     const light::LightField& field = *options.light;
@@ -60,7 +72,7 @@ struct Walker {
     add(share * path.glow);
     if (path.cut_off || path.hit.target == trace::Target::nothing)
       return add(share * (options.weighs_background ? path.weight * options.background : options.background));
-    const trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
+    trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
     if (depth == 0) seen.surface = point, seen.hit = true;
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
     const Color color = surface_color(*scene.room, point);
@@ -72,6 +84,7 @@ struct Walker {
       if (options.light) return lit(path, point, *material, color, share);
       return add(share * (path.weight * color));
     }
+    smooth(point, path.hit);
     if (mirror) return go_on(path, point, light::mirrored(scene, point), path.weight * color, share, depth);
     const light::Refraction through = light::refracted(scene, point, material->index);
     const double back = share * through.reflectance, on = share * (1 - through.reflectance);

@@ -1,0 +1,68 @@
+// What an export shows in a mirror or in glass is what the tracer's own ray from the eye brings back.
+#include "compiler/driver/see_in.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "compiler/cover/unfold.h"
+#include "compiler/driver/trace.h"
+#include "compiler/render/draw.h"
+#include "compiler/render/shade.h"
+
+using namespace orbc;
+
+namespace {
+
+driver::Opened opened(const std::string& orbifold, const std::string& material) {
+  const auto path = std::filesystem::temp_directory_path() / ("orbc-see-in-" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(path) << "orbc: 1\norbifold: \"" + orbifold + "\"\nroom: {height: 0.9}\nobjects:\n"
+                         "  - {sphere: {radius: 0.15}, at: {polar: [0.1, 60deg]}, material: " + material + "}\n"
+                         "  - {box: {size: [0.1, 0.1, 0.1]}, at: {polar: [0.3, 100deg]}, material: tomato}\n"
+                         "lights:\n  - {kind: point, at: {polar: [0.05, 200deg], z: 0.8}, power: 8}\n"
+                         "camera: {at: {polar: [0.3, 230deg], z: 0.45}, fov: 100deg, size: [40, 30]}\n"
+                         "cover: {max_bounces: 2}\n";
+  auto done = driver::open_scene(path.string());
+  std::filesystem::remove(path);
+  REQUIRE(done);
+  return std::move(done).value();
+}
+
+}  // namespace
+
+TEST_CASE("what is seen in chrome and glass of any copy is what the eye's own ray brings back", "[driver]") {
+  for (const std::string orbifold : {"*222", "*2222", "*22222"}) {
+    for (const std::string material : {"mirror", "glass"}) {
+      CAPTURE(orbifold, material);
+      const driver::Opened scene = opened(orbifold, material);
+      const auto see = driver::see_in(scene, serial_executor());
+      const auto traced = trace::prepare(*scene.room);
+      const auto light = light::prepare_light(scene.scene, *scene.room, light::light_options(scene.scene)).value();
+      const render::DrawOptions draw = driver::draw_options(scene, light, serial_executor());
+      const auto copies = cover::unfold(*scene.room, scene.eye, scene.scene.cover).value();
+      int met = 0, same = 0;
+      for (int y = 0; y < scene.eye.height; ++y) {
+        for (int x = 0; x < scene.eye.width; ++x) {
+          const render::Seen seen = render::radiance(traced, render::eye_ray(scene.eye, x + 0.5, y + 0.5), draw);
+          const bool ball = seen.hit && seen.surface.kind == place::PartKind::object && scene.room->parts[static_cast<std::size_t>(seen.surface.part)].name == "sphere";
+          if (!ball) continue;
+          // the copy that the eye's ray has come to: the one whose image of the eye it comes from
+          for (const cover::Copy& copy : copies) {
+            if (copy.bounces != seen.path.bounces || copy.sheet != 0) continue;
+            const trace::Direction to_eye = light::direction_to_eye(copy, scene.eye, seen.surface.at);
+            const trace::Direction off = to_eye + seen.surface.arriving;
+            if (trace::inner(scene.room->room.space, off, off) > 1e-12) continue;
+            const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy);
+            ++met;
+            same += std::fabs(c.r - seen.radiance.r) < 1e-3 && std::fabs(c.g - seen.radiance.g) < 1e-3 && std::fabs(c.b - seen.radiance.b) < 1e-3;
+          }
+        }
+      }
+      CHECK(met > 20);
+      CHECK(same >= met - met / 50);   // an edge seen in the ball may fall on either side
+    }
+  }
+}
