@@ -27,8 +27,9 @@ with folder() as where:
         paths = 'integrator: path' in text          # many samples, so that chance does not show
         glass = 'material: glass' in text           # every pixel of glass is traced for every copy
         small = ('--size', '200x150') if glass else ()
+        for_glb = small or (('--size', '400x300') if 'lights:' in text else ())   # highlights take their time
         glb, svg = where / f'{name}.glb', where / f'{name}.svg'
-        done = orbc('compile', scene, '-o', glb, '--quiet', *small)
+        done = orbc('compile', scene, '-o', glb, '--quiet', *for_glb)
         check(done.returncode == 0, f'{name}: glb {done.stderr.decode()[:300]}')
         valid = run(['node', SCRIPTS / 'validate_gltf.mjs', glb])
         check(valid.returncode == 0, f'{name}: the Khronos validator finds nothing {valid.stdout.decode()[:300] if valid.returncode else ""}')
