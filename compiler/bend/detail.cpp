@@ -102,7 +102,8 @@ double Detail::smaller_side_px(const cover::Copy& copy, const Extent& extent) co
   const geometry::Ambient c = geometry::matrix(eye_from_room_ * copy.cover_from_room) * extent.centre;
   const double sine = std::hypot(c.x, c.y), r = geometry::sin_k(space, std::min(extent.radius, space == Space::spherical ? std::numbers::pi / 2 : extent.radius));
   if (!(sine > r)) return kCannotTell;
-  const double wide = 2 * std::asin(r / sine), near = std::max(0.0, geometry::arc_k(space, c.w, sine) - extent.radius) + copy.sheet * std::numbers::pi;
+  const double away = geometry::arc_k(space, c.w, sine), wide = 2 * std::asin(r / sine);
+  const double first = std::max(0.0, away - extent.radius), near = space == Space::spherical ? way_on(copy.sheet, first, away + extent.radius).from : first;
   const double tall = near > 0 ? (extent.high - extent.low) / near : kCannotTell;
   return std::min(wide, tall) * densest(sight_);
 }
