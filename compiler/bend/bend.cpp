@@ -266,10 +266,7 @@ Diagnostic too_dense(Work& work, const Executor& executor) {
   const double asked = work.sight.tolerance;
   std::uint64_t least = 0;
   for (std::size_t i = 0; i < work.copies.size(); ++i) {
-    for (const ModelPart& part : model_of(work, i)) {
-      const PartNet& net = work.nets[part.net];
-      least += is_drawn(work, net, work.copies[i]) ? net.mesh->triangles.size() : 0;
-    }
+    for (const CopyPart& part : CopyParts(work, i)) least += part.net->mesh->triangles.size();
   }
   const std::string message = "bending " + std::to_string(work.copies.size()) + " copies needs more than " +
                               std::to_string(work.options.max_triangles) + " triangles";
@@ -366,7 +363,9 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Model>& 
     Writer(work, i, out.copies[i], totals.copies[i].kept, out);
     std::vector<Tessellation>().swap(totals.copies[i].kept);
   });
-  if (options.view == View::eye) cut_as_seen(out, copies, eye, options.tolerance_px);
+  if (options.view == View::eye) out = cut_as_seen(std::move(out), copies, eye, options.tolerance_px);
+  // Cutting may add triangles, but hardly ever does: most of what it meets falls away.
+  if (out.indices.size() / 3 > options.max_triangles || out.positions.size() >= 0xffffffffULL) return too_dense(work, executor);
   return out;
 }
 

@@ -57,7 +57,7 @@ struct BentCover {
 
 /// Bends every copy of the room for the eye: splits edges until every chord lies within the tolerance of the true image, each edge judged
 /// by itself so that neighbours agree, then maps the vertices by the log map.
-/// Copies with a wedge are cut to it first, copies on other storeys lifted there (clip.h).
+/// Copies on other storeys are lifted there first. Copies with a wedge are cut to it: for the eye last (cut_as_seen.h), for View::disk first (clip.h).
 /// In:          the room for its space and looks; models, and which one each copy is drawn from (empty: all from the first); uv parallel to their mesh's vertices;
 ///              copies; the eye.
 /// Makes:       the same bytes whatever the executor; walls that face the eye (`Copy::nearer_walls`) are left out, neighbours draw them.

@@ -301,11 +301,15 @@ void append_whole(const BentCover& from, const BentRange& range, BentCover& to) 
 
 }  // namespace
 
-void cut_as_seen(BentCover& cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px) {
-  if (std::none_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.wedge.has_value(); })) return;
+BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px) {
+  if (std::none_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.wedge.has_value(); })) return cover;
   BentCover cut;
   cut.error_bound_px = cover.error_bound_px;
   cut.split_parts = cover.split_parts;
+  cut.positions.reserve(cover.positions.size());
+  cut.uv.reserve(cover.uv.size());
+  cut.indices.reserve(cover.indices.size());
+  cut.copies.reserve(copies.size());
   for (std::size_t i = 0; i < copies.size(); ++i) {
     if (copies[i].wedge) {
       const Planes planes(copies[i], eye.room_from_eye.space, eye, tolerance_px);
@@ -314,7 +318,7 @@ void cut_as_seen(BentCover& cover, const std::vector<cover::Copy>& copies, const
       append_whole(cover, cover.copies[i], cut);
     }
   }
-  cover = std::move(cut);
+  return cut;
 }
 
 }  // namespace orbc::bend
