@@ -18,8 +18,6 @@ constexpr int kDeeper = 96;                // bounces beyond the cut-off
 constexpr double kNothing = 1e-4;          // weight
 constexpr double kInto = 0.01;             // of the room's height
 
-double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
-
 }  // namespace
 
 Beyond look_beyond(const Opened& opened, bool with_color, const Executor& executor) {
@@ -94,9 +92,9 @@ std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint
   return panels;
 }
 
-std::uint64_t cut_mirrors(const place::PlacedRoom& room, const scene::CoverSpec& spec, const cover::Copy& copy) {
-  std::uint64_t cut = 0;
-  for (std::size_t i = 0; i < room.mirrors.size() && i < 64; ++i) {
+std::vector<bool> cut_mirrors(const place::PlacedRoom& room, const scene::CoverSpec& spec, const cover::Copy& copy) {
+  std::vector<bool> cut(room.mirrors.size(), false);
+  for (std::size_t i = 0; i < room.mirrors.size(); ++i) {
     const place::PlacedMirror& mirror = room.mirrors[i];
     const bool last = copy.bounces >= spec.max_bounces || largest(mirror.reflectance * (mirror.tint * copy.weight)) < spec.min_weight;
     if (!last) continue;
@@ -105,22 +103,22 @@ std::uint64_t cut_mirrors(const place::PlacedRoom& room, const scene::CoverSpec&
       const int way = mirror.wall == -2 ? 1 : -1, towards = copy.storey.sign > 0 ? way : -way;
       if (copy.storey.number * towards < 0) continue;
     }
-    cut |= std::uint64_t{1} << i;
+    cut[i] = true;
   }
   return cut;
 }
 
 void hang(const place::PlacedRoom& room, const scene::CoverSpec& spec, const std::vector<cover::Copy>& copies, const std::vector<bend::Model::Part>& curtain,
           std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
-  std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> known;
+  std::map<std::pair<std::uint32_t, std::vector<bool>>, std::uint32_t> known;
   for (std::size_t i = 0; i < copies.size(); ++i) {
-    const std::uint64_t cut = cut_mirrors(room, spec, copies[i]);
-    if (cut == 0) continue;
+    const std::vector<bool> cut = cut_mirrors(room, spec, copies[i]);
+    if (std::find(cut.begin(), cut.end(), true) == cut.end()) continue;
     const auto [at, is_new] = known.try_emplace({model_of_copy[i], cut}, static_cast<std::uint32_t>(models.size()));
     if (is_new) {
       bend::Model model = models[model_of_copy[i]];
-      for (std::size_t m = 0; m < curtain.size() && m < 64; ++m)
-        if ((cut >> m) & 1) model.parts.push_back(curtain[m]);
+      for (std::size_t m = 0; m < curtain.size(); ++m)
+        if (cut[m]) model.parts.push_back(curtain[m]);
       models.push_back(std::move(model));
     }
     model_of_copy[i] = at->second;

@@ -22,8 +22,9 @@ struct Beyond {
 /// A panel of one look in each mirror (parallel to the room's): what is drawn where nothing lies behind it.
 [[nodiscard]] std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t look);
 
-/// The mirrors of a copy at which paths are cut off, as bits: those that the tracer would not reflect at. Walls that face the eye are never drawn, and may be in it.
-[[nodiscard]] std::uint64_t cut_mirrors(const place::PlacedRoom& room, const scene::CoverSpec& spec, const cover::Copy& copy);
+/// Of each mirror of the room whether paths are cut off at it in a copy: where the tracer would not reflect. Walls that face the eye are
+/// never drawn, and may be among them.
+[[nodiscard]] std::vector<bool> cut_mirrors(const place::PlacedRoom& room, const scene::CoverSpec& spec, const cover::Copy& copy);
 
 /// Adds the curtains to the models of the copies that need them. `curtain`: parallel to the mirrors.
 void hang(const place::PlacedRoom& room, const scene::CoverSpec& spec, const std::vector<cover::Copy>& copies, const std::vector<bend::Model::Part>& curtain,
