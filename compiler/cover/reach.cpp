@@ -19,8 +19,6 @@ using geometry::Space;
 
 bool is_integer(const Rational& value) { return denominator(value) == 1; }
 
-double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
-
 /// The smaller extent, in pixels, of a copy whose centre lies at distance d from the eye; large when the eye is inside its circle.
 double size_in_picture(const place::PlacedRoom& room, double eye_z, double pixels, double d) {
   const double radius = room.room.circumradius;

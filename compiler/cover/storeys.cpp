@@ -8,8 +8,6 @@
 namespace orbc::cover {
 namespace {
 
-double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
-
 const place::PlacedMirror* mirror_of(const place::PlacedRoom& room, int surface) {
   for (const place::PlacedMirror& mirror : room.mirrors)
     if (mirror.wall == surface) return &mirror;

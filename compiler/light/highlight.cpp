@@ -20,8 +20,6 @@ using trace::Direction;
 constexpr double kFaint = 1.0 / 3000;  // of white: highlights that cannot reach it are left out
 constexpr int kProbes = 4;             // samples that decide whether the lamp is seen whole
 
-double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
-
 /// A surface point under an eye: everything but the lamp.
 struct Lobe {
   Space space;

@@ -32,8 +32,6 @@ struct Node {
   std::size_t first = 0, count = 0; ///< links
 };
 
-double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
-
 int points_on(double length, double density) { return std::clamp(static_cast<int>(std::ceil(length * density - 1e-9)), 1, kMostPoints - 1) + 1; }
 
 /// The net: vertices of the parts, and points inside the blocks.

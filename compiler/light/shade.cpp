@@ -23,8 +23,6 @@ using trace::Direction;
 constexpr int kProbes = kDesign;      // samples that decide whether there is a penumbra at all
 constexpr double kSmall = 0.25;       // extent of a lamp over its distance: the third order is 1.5 % of it, and less of the light
 
-double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
-
 /// About how much an image could add at a point; 0 only where it surely adds nothing.
 double expected(const LightField& field, const LampImage& image, const LightPoint& point) {
   const Space space = field.scene.prism.space;

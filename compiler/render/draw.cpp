@@ -26,7 +26,6 @@ void record(const Seen& seen, std::size_t pixel, Film& film) {
                         static_cast<float>(seen.surface.normal.z)};
 }
 
-double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
 scene::Color least(const scene::Color& a, const scene::Color& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
 
 /// Sums over a pixel's samples, in their order.
@@ -46,7 +45,7 @@ struct Sums {
     const auto variance = [&](double sum, double sum2, double all, double bound) {
       return all >= bound ? 0 : std::max(0.0, sum2 - sum * sum / n) / std::max(1.0, n * (n - 1));
     };
-    return static_cast<float>(std::sqrt(largest({variance(guess.r, guess2.r, radiance.r, most.r), variance(guess.g, guess2.g, radiance.g, most.g),
+    return static_cast<float>(std::sqrt(scene::largest({variance(guess.r, guess2.r, radiance.r, most.r), variance(guess.g, guess2.g, radiance.g, most.g),
                                                  variance(guess.b, guess2.b, radiance.b, most.b)})));
   }
 };

@@ -18,8 +18,6 @@ using scene::Color;
 
 constexpr int kSurePasses = 2;      // surfaces before which no path is ended by chance: they make most of the light
 
-double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
-
 // One path, by the numbers that choose its first direction.
 Color walked(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, const std::array<double, 3>& first,
              light::Random& random) {

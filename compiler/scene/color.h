@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,8 @@ struct Color {
 [[nodiscard]] constexpr Color operator*(double s, const Color& c) { return {s * c.r, s * c.g, s * c.b}; }
 [[nodiscard]] constexpr Color operator+(const Color& a, const Color& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 [[nodiscard]] constexpr bool operator==(const Color& a, const Color& b) { return a.r == b.r && a.g == b.g && a.b == b.b; }
+/// Of its channels.
+[[nodiscard]] constexpr double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
 /// IEC 61966-2-1 transfer function, one channel, both ways; values outside [0, 1] are clamped by `encode_srgb` only.
 [[nodiscard]] double decode_srgb(double encoded);

@@ -14,8 +14,6 @@ int surface_of(const Hit& hit) {
   return hit.target == Target::floor ? kFloor : hit.target == Target::ceiling ? kCeiling : kNoSurface;
 }
 
-double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
-
 Path path_at_start(const FollowOptions& options) {
   Path path;
   path.length = options.length;
