@@ -53,7 +53,6 @@ bool is_integer(const Rational& value) { return denominator(value) == 1; }
 bool is_orbifold(const place::PlacedRoom& room) {
   return std::all_of(room.room.orbifold.corners.begin(), room.room.orbifold.corners.end(), is_integer);
 }
-double largest(const scene::Color& c) { return std::max({c.r, c.g, c.b}); }
 std::uint64_t bit(int wall) { return wall >= 0 && wall < 64 ? std::uint64_t{1} << wall : 0; }
 
 Bearing bearing_of(const Ambient& seen, int sheet) {
@@ -244,11 +243,11 @@ class Unfolder {
     next.crossings = beam.crossings;
     ++next.crossings[static_cast<std::size_t>(loss)];
     if (largest(weight_of(next.crossings)) < spec_.min_weight) {
-      ended_by_weight_ = true;
+      cut_short_ = true;
       return;
     }
     if (spec_.min_pixels > 0 && ahead(wedge.from, wedge.to) && turn(wedge.from, wedge.to) * pixels_ < spec_.min_pixels) {
-      ended_by_weight_ = true;
+      cut_short_ = true;
       return;
     }
     next.cover_from_room = beam.cover_from_room * mirrors_[static_cast<std::size_t>(wall)];
@@ -324,7 +323,7 @@ class Unfolder {
     for (std::size_t from = 0, to; from < seen_.size(); from = to) {
       for (to = from + 1; to < seen_.size() && place_of(seen_[from]) == place_of(seen_[to]);) ++to;
       const bool one_weight = seen_[from].crossings == seen_[to - 1].crossings;
-      if (automaton_ && one_weight && !ended_by_weight_) {
+      if (automaton_ && one_weight && !cut_short_) {
         // What is hidden of it lies behind plain walls.
         copies.push_back(copy_of(seen_[from]));
         continue;
@@ -359,7 +358,7 @@ class Unfolder {
   std::optional<Automaton> automaton_;  // orbifolds
   std::vector<int> letter_, wall_;      // wall ↔ letter of the automaton
   std::vector<Seen> seen_;
-  bool ended_by_weight_ = false;
+  bool cut_short_ = false;
 };
 
 }  // namespace

@@ -133,10 +133,6 @@ Diagnostic too_much(const Counts& counts, int max_bounces, const Integer& most, 
   return make_error("cover.too-much", fmt::format("max_bounces: {} unfolds more copies than {}", max_bounces, limit), hint);
 }
 
-}  // namespace
-
-namespace {
-
 Plan empty_plan(const place::PlacedRoom& room) {
   Plan plan;
   for (const auto& part : room.parts) {

@@ -13,7 +13,7 @@ using geometry::Space;
 
 constexpr double kFarthest = 18.5;   // H²: artanh of the largest double below 1
 constexpr double kMargin = 0.05;     // between the bearings looked at slopes change by less of their size
-constexpr int kLooks = 9;
+constexpr int kLooks = 33;
 
 /// Whether slope(a) ≥ slope(b) for every bearing; `a_first`: a is crossed before b.
 bool steeper(double a, double b, bool a_first) {

@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace orbc::trace::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using V4f = hn::Vec<hn::CappedTag<double, 4>>;
+using V4 = hn::Vec<hn::CappedTag<double, 4>>;
 
 /// Results of the part in double, per ray, already rounded.
 struct alignas(64) Feet {
@@ -37,12 +37,12 @@ HWY_INLINE void find_feet(const Chart& chart, const double in[9][8], std::size_t
   constexpr double k = geometry::curvature(kSpace);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto load = [&](int f) { return hn::Load(d, in[f] + i); };
-    const auto put = [&](V4f v, float* to) { hn::Store(hn::DemoteTo(df, v), df, to + i); };
-    V4f pw = load(0), px = load(1), py = load(2), vw = load(3), vx = load(4), vy = load(5);
+    const auto put = [&](V4 v, float* to) { hn::Store(hn::DemoteTo(df, v), df, to + i); };
+    V4 pw = load(0), px = load(1), py = load(2), vw = load(3), vx = load(4), vy = load(5);
     if constexpr (kSpace == Space::euclidean) {
       px = hn::Add(px, hn::Set(d, map[1][0]));
       py = hn::Add(py, hn::Set(d, map[2][0]));
-      const V4f along = hn::Add(hn::Mul(px, vx), hn::Mul(py, vy));
+      const V4 along = hn::Add(hn::Mul(px, vx), hn::Mul(py, vy));
       put(hn::Set(d, 1.0), feet.r);
       put(hn::Sub(px, hn::Mul(along, vx)), feet.cx);
       put(hn::Sub(py, hn::Mul(along, vy)), feet.cy);
@@ -53,16 +53,16 @@ HWY_INLINE void find_feet(const Chart& chart, const double in[9][8], std::size_t
       continue;
     }
     if (chart.moved) {
-      const auto row = [&](int j, V4f w, V4f x, V4f y) {
+      const auto row = [&](int j, V4 w, V4 x, V4 y) {
         return hn::Add(hn::Add(hn::Mul(hn::Set(d, map[j][0]), w), hn::Mul(hn::Set(d, map[j][1]), x)), hn::Mul(hn::Set(d, map[j][2]), y));
       };
-      const V4f p0 = row(0, pw, px, py), p1 = row(1, pw, px, py), p2 = row(2, pw, px, py);
-      const V4f v0 = row(0, vw, vx, vy), v1 = row(1, vw, vx, vy), v2 = row(2, vw, vx, vy);
+      const V4 p0 = row(0, pw, px, py), p1 = row(1, pw, px, py), p2 = row(2, pw, px, py);
+      const V4 v0 = row(0, vw, vx, vy), v1 = row(1, vw, vx, vy), v2 = row(2, vw, vx, vy);
       pw = p0, px = p1, py = p2, vw = v0, vx = v1, vy = v2;
     }
-    const V4f kvw = hn::Mul(hn::Set(d, k), vw);
-    const V4f r2 = hn::Add(hn::Mul(pw, pw), hn::Mul(kvw, vw)), r = hn::Sqrt(r2);
-    const V4f by_r2 = hn::Div(hn::Set(d, 1.0), r2), by_r = hn::Mul(r, by_r2);
+    const V4 kvw = hn::Mul(hn::Set(d, k), vw);
+    const V4 r2 = hn::Add(hn::Mul(pw, pw), hn::Mul(kvw, vw)), r = hn::Sqrt(r2);
+    const V4 by_r2 = hn::Div(hn::Set(d, 1.0), r2), by_r = hn::Mul(r, by_r2);
     put(r, feet.r);
     put(hn::Mul(hn::Add(hn::Mul(pw, px), hn::Mul(kvw, vx)), by_r2), feet.cx);
     put(hn::Mul(hn::Add(hn::Mul(pw, py), hn::Mul(kvw, vy)), by_r2), feet.cy);

@@ -11,26 +11,14 @@
 #include "compiler/cover/unfold.h"
 #include "compiler/notation/growth.h"
 #include "compiler/notation/parse.h"
-#include "compiler/room/realise.h"
+#include "tests/support/mirror_room.h"
 
 using namespace orbc;
 using geometry::Space;
 
 namespace {
 
-place::PlacedRoom mirror_room(const std::string& text) {
-  const auto orbifold = notation::parse(text, {{}, true});
-  REQUIRE(orbifold);
-  auto room = room::realise(*orbifold, {}, true);
-  if (!room) FAIL(text + ": " + to_text(room.error()));
-  place::PlacedRoom placed;
-  placed.room = std::move(room).value();
-  for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
-    if (placed.room.walls[i].reflects)
-      placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, 0.9, {1, 1, 1}});
-  }
-  return placed;
-}
+using test::mirror_room;
 
 std::string one_order(int k) { return std::string("(").append(std::to_string(k)).append(")"); }
 
@@ -95,7 +83,7 @@ void compare_with_group(int trials, unsigned seed) {
   std::mt19937 random(seed);
   for (int trial = 0; trial < trials; ++trial) {
     const std::string text = random_orbifold(random);
-    const auto room = mirror_room(text);
+    const auto room = mirror_room(text, true);
     const auto eye = random_eye(room, random);
     INFO(text << " trial " << trial);
     const int bounces = bounces_for(room);
@@ -124,7 +112,7 @@ TEST_CASE("copies cut by weight have the paths' own weights, and fit together", 
   std::mt19937 random(4712);
   for (int trial = 0; trial < 60; ++trial) {
     const std::string text = random_orbifold(random);
-    auto room = mirror_room(text);
+    auto room = mirror_room(text, true);
     for (auto& mirror : room.mirrors) mirror.reflectance = 0.5 + 0.4 * static_cast<double>(random() % 1000) / 1000;
     const auto eye = random_eye(room, random);
     INFO(text << " trial " << trial);
@@ -152,7 +140,7 @@ TEST_CASE("copies cut by weight have the paths' own weights, and fit together", 
 TEST_CASE("in rooms that are no orbifolds every bearing meets the walls of its wedge's word", "[cover][property]") {
   std::mt19937 random(4713);
   for (const char* text : {"*(3/2)(12)(12)", "*(2.5)(2.5)(2.5)(2.5)", "*(2.5)44", "*(2.5)(2.5)(2.5)", "*(7/3)23", "*(3.5)(4.5)(3.5)"}) {
-    const auto room = mirror_room(text);
+    const auto room = mirror_room(text, true);
     const auto eye = random_eye(room, random);
     INFO(text);
     const auto copies = beams_of(room, eye, 7);
@@ -202,7 +190,7 @@ TEST_CASE("of mirrors above each other each ray has its own, in one piece of the
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 40; ++trial) {
     const std::string text = random_orbifold(random);
-    auto room = mirror_room(text);
+    auto room = mirror_room(text, true);
     const Space space = room.room.space;
     std::vector<double> divided(room.room.walls.size(), 2);   // the height that divides a wall, or one above all
     const std::size_t walls = room.mirrors.size();

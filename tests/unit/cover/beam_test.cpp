@@ -7,27 +7,14 @@
 
 #include "compiler/cover/storeys.h"
 #include "compiler/cover/unfold.h"
-#include "compiler/notation/parse.h"
-#include "compiler/room/realise.h"
+#include "tests/support/mirror_room.h"
 
 using namespace orbc;
 using geometry::Space;
 
 namespace {
 
-place::PlacedRoom mirror_room(const std::string& text, bool real = false) {
-  auto orbifold = notation::parse(text, {{}, real});
-  REQUIRE(orbifold);
-  auto room = room::realise(*orbifold, {}, real);
-  if (!room) FAIL(to_text(room.error()));
-  place::PlacedRoom placed;
-  placed.room = std::move(room).value();
-  for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
-    if (placed.room.walls[i].reflects)
-      placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, 0.9, {1, 1, 1}});
-  }
-  return placed;
-}
+using test::mirror_room;
 
 place::Eye eye_in(const place::PlacedRoom& room) {
   place::Eye eye;
