@@ -36,6 +36,10 @@ endforeach()
 foreach(exporter ${ORBC_EXPORTERS})
   orbc_tests(test_${exporter} tests/unit/${exporter} USES ${exporter})
 endforeach()
+if(TARGET property_cover)  # the same over thousands of rooms
+  add_test(NAME beams_of_thousands COMMAND property_cover [slow] WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  set_tests_properties(beams_of_thousands PROPERTIES LABELS slow TIMEOUT 600)
+endif()
 orbc_tests(test_watertight tests/watertight USES driver)
 if(TARGET test_watertight)  # the same from a thousand eyes
   add_test(NAME watertight_thousand COMMAND test_watertight [slow] WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

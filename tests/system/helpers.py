@@ -51,6 +51,13 @@ def run(command, **options):
     return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, **options)
 
 
+def done(*command):
+    """Runs what must succeed."""
+    ended = run(command)
+    if ended.returncode:
+        sys.exit(f"{' '.join(str(word) for word in command)}\n{ended.stderr.decode()}")
+
+
 def picture(path):
     return np.asarray(Image.open(path).convert('RGB')).astype(int)
 

@@ -1,15 +1,9 @@
 #!/usr/bin/env python3
 """Euclidean rooms drawn twice by POV-Ray: with its own mirrors, and unfolded by orbc. At least 99.8 % of the pixels agree within 2/255."""
 import pathlib
-import subprocess
-import sys
-import tempfile
 
 import numpy as np
-from PIL import Image
-
-programs = pathlib.Path(sys.argv[1])
-root = pathlib.Path(__file__).resolve().parents[2]
+from helpers import BIN, SCRIPTS, check, done, finish, folder, picture
 
 SCENE = """orbc: 1
 orbifold: "{notation}"
@@ -34,34 +28,18 @@ cover: {{max_bounces: 14, background: black}}
 """
 
 
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"{' '.join(str(c) for c in command)}\n{done.stderr}")
-
-
-def pixels(path):
-    return np.asarray(Image.open(path).convert("RGB")).astype(int)
-
-
-def main():
-    failures = 0
-    for notation, scale in (("*2222", 0.6), ("*333", 0.6), ("*244", 0.55), ("*236", 0.5)):
-        with tempfile.TemporaryDirectory() as folder:
-            folder = pathlib.Path(folder)
-            (folder / "room.yaml").write_text(SCENE.format(notation=notation, scale=scale))
-            run(programs / "mirror_room", folder / "room.yaml", folder / "mirrors.pov")
-            run(root / "scripts/povray-pipe", folder / "mirrors.pov", "-o", folder / "mirrors.png")
-            run(programs / "orbc", "render", "--quiet", folder / "room.yaml", "-o", folder / "copies.png", "--engine", "povray")
-            run(programs / "orbc", "trace", "--quiet", folder / "room.yaml", "-o", folder / "traced.png")
-            mirrors = pixels(folder / "mirrors.png")
-            for name, wanted in (("copies", 0.998), ("traced", 0.999)):
-                difference = np.abs(mirrors - pixels(folder / f"{name}.png")).max(axis=2)
-                share = (difference <= 2).mean()
-                print(f"{notation:6} POV-Ray's mirrors against {name}: {100 * share:.3f} % within 2/255, largest {difference.max()}")
-                if share < wanted or mirrors.std() < 20:
-                    failures += 1
-    return 1 if failures else 0
-
-
-sys.exit(main())
+for notation, scale in (("*2222", 0.6), ("*333", 0.6), ("*244", 0.55), ("*236", 0.5)):
+    with folder() as where:
+        where = pathlib.Path(where)
+        (where / "room.yaml").write_text(SCENE.format(notation=notation, scale=scale))
+        done(BIN / "mirror_room", where / "room.yaml", where / "mirrors.pov")
+        done(SCRIPTS / "povray-pipe", where / "mirrors.pov", "-o", where / "mirrors.png")
+        done(BIN / "orbc", "render", "--quiet", where / "room.yaml", "-o", where / "copies.png", "--engine", "povray")
+        done(BIN / "orbc", "trace", "--quiet", where / "room.yaml", "-o", where / "traced.png")
+        mirrors = picture(where / "mirrors.png")
+        for name, wanted in (("copies", 0.998), ("traced", 0.999)):
+            difference = np.abs(mirrors - picture(where / f"{name}.png")).max(axis=2)
+            share = (difference <= 2).mean()
+            check(share >= wanted and mirrors.std() >= 20,
+                  f"{notation:6} POV-Ray's mirrors against {name}: {100 * share:.3f} % within 2/255, largest {difference.max()}")
+finish()
