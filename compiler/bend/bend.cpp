@@ -363,7 +363,7 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Model>& 
     Writer(work, i, out.copies[i], totals.copies[i].kept, out);
     std::vector<Tessellation>().swap(totals.copies[i].kept);
   });
-  if (options.view == View::eye) out = cut_as_seen(std::move(out), copies, eye, options.tolerance_px);
+  if (options.view == View::eye) out = cut_as_seen(std::move(out), copies, eye, options.tolerance_px, executor);
   // Cutting may add triangles, but hardly ever does: most of what it meets falls away.
   if (out.indices.size() / 3 > options.max_triangles || out.positions.size() >= 0xffffffffULL) return too_dense(work, executor);
   return out;

@@ -284,7 +284,8 @@ class Cutter {
   std::map<std::array<int, 2>, std::uint32_t> own_;                             // of the triangle
 };
 
-void append_whole(const BentCover& from, const BentRange& range, BentCover& to) {
+/// Adds a piece of one cover, with its triangles, to another.
+void append(const BentCover& from, const BentRange& range, BentCover& to) {
   const std::size_t first_vertex = to.positions.size(), first_index = to.indices.size();
   const auto piece = [](const auto& all, std::size_t first, std::size_t count) {
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
@@ -301,8 +302,9 @@ void append_whole(const BentCover& from, const BentRange& range, BentCover& to) 
 
 }  // namespace
 
-BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px) {
+BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px, const Executor& executor) {
   if (std::none_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.wedge.has_value(); })) return cover;
+  constexpr std::size_t kTogether = 512;   // copies that are held twice
   BentCover cut;
   cut.error_bound_px = cover.error_bound_px;
   cut.split_parts = cover.split_parts;
@@ -310,13 +312,17 @@ BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, c
   cut.uv.reserve(cover.uv.size());
   cut.indices.reserve(cover.indices.size());
   cut.copies.reserve(copies.size());
-  for (std::size_t i = 0; i < copies.size(); ++i) {
-    if (copies[i].wedge) {
-      const Planes planes(copies[i], eye.room_from_eye.space, eye, tolerance_px);
-      Cutter(cover, copies[i], planes, eye.z, cut).run(cover.copies[i]);
-    } else {
-      append_whole(cover, cover.copies[i], cut);
-    }
+  for (std::size_t from = 0; from < copies.size(); from += kTogether) {
+    std::vector<BentCover> pieces(std::min(kTogether, copies.size() - from));
+    executor(pieces.size(), [&](std::size_t i) {
+      const cover::Copy& copy = copies[from + i];
+      if (!copy.wedge) return;
+      const Planes planes(copy, eye.room_from_eye.space, eye, tolerance_px);
+      Cutter(cover, copy, planes, eye.z, pieces[i]).run(cover.copies[from + i]);
+    });
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (copies[from + i].wedge) append(pieces[i], pieces[i].copies.front(), cut);
+      else append(cover, cover.copies[from + i], cut);
   }
   return cut;
 }

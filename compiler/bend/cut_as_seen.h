@@ -12,8 +12,9 @@ namespace orbc::bend {
 /// Makes:  the triangles cut by upright planes through the eye at the borders of wedges. Each sill becomes a polyline as the eye sees it;
 ///         the triangles are cut by the planes through the eye and its pieces, and by the upright planes between these. Copies on both
 ///         sides of a cut, bent alike, get the same vertices along it bit by bit; and across a wall what is cut fits what is not, since
-///         both were split alike before.
+///         both were split alike before. The same for any executor.
 /// Error:  vertices within 4e-7 radians of an upright plane count as on it.
-[[nodiscard]] BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px);
+[[nodiscard]] BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px,
+                                    const Executor& executor);
 
 }  // namespace orbc::bend

@@ -100,6 +100,7 @@ int compile(const CompileArguments& a, const Common& common) {
   }
   const auto compiled = driver::compile(*opened, options, executor, bar.progress());
   if (!compiled) return bar.clear(), print(compiled.error(), common), kSceneWrong;
+  if (!compiled->notes.empty()) bar.clear(), print(compiled->notes, common);
   report(bar.progress(), "writing", 0, 0);
   write_files(exported(compiled->product, format, a.output, a.nodes_per_copy), a.output);
   if (!a.report.empty()) write_output(a.report, driver::report_json(*compiled));

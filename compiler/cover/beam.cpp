@@ -16,6 +16,7 @@
 
 #include "compiler/cover/automaton.h"
 #include "compiler/cover/rim.h"
+#include "compiler/cover/size.h"
 #include "compiler/cover/storeys.h"
 #include "compiler/room/room.h"
 
@@ -90,7 +91,7 @@ class Unfolder {
         rim_(rim),
         eye_z_(eye.z),
         eye_from_cover_(inverse(eye.room_from_eye)),
-        pixels_(place::pixels_per_radian(eye)) {
+        size_(room, eye) {
     for (const WeightedStorey& on : storeys_of(room, spec.max_bounces)) {
       lowest_ = std::min(lowest_, on.storey.number * room.height);
       highest_ = std::max(highest_, (on.storey.number + 1) * room.height);
@@ -246,10 +247,6 @@ class Unfolder {
       cut_short_ = true;
       return;
     }
-    if (spec_.min_pixels > 0 && ahead(wedge.from, wedge.to) && turn(wedge.from, wedge.to) * pixels_ < spec_.min_pixels) {
-      cut_short_ = true;
-      return;
-    }
     next.cover_from_room = beam.cover_from_room * mirrors_[static_cast<std::size_t>(wall)];
     if (automaton_) {
       next.word = times(*automaton_, beam.word, letter_[static_cast<std::size_t>(wall)]);
@@ -260,6 +257,9 @@ class Unfolder {
       next.word.push_back(static_cast<std::uint8_t>(wall));
       if (next.word.size() % 8 == 0) next.cover_from_room = geometry::renormalised(next.cover_from_room);
     }
+    // All beams that come into a copy through one wall see it alike: it is left out of all of them, or of none. So what it hides stays hidden by a
+    // panel in that wall's mirrors (driver/tail.h), and whole copies behind it need no wedge.
+    if (spec_.min_pixels > 0 && too_small(size_.of(next.cover_from_room), spec_)) return;
     next.wedge = wedge;
     next.sills = std::move(sills);
     next.entry = wall;
@@ -353,7 +353,7 @@ class Unfolder {
   const Rim& rim_;
   double eye_z_, lowest_ = 0, highest_ = 0;   // all heights that rays can have
   Isometry eye_from_cover_;
-  double pixels_;
+  CopySize size_;
   std::vector<Isometry> mirrors_;
   std::optional<Automaton> automaton_;  // orbifolds
   std::vector<int> letter_, wall_;      // wall ↔ letter of the automaton

@@ -169,7 +169,7 @@ Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const sc
     counts = count_seen(*copies);
     for (const Copy& copy : *copies) plan.sheets = std::max(plan.sheets, copy.sheet + 1);
   } else {
-    const auto reach = reach_of(room, eye, spec);
+    const auto reach = reach_of(room, spec);
     if (!reach) return reach.error();
     plan.sheets = reach->sheets;
     counts = count_copies(*reach, room, eye, most);
@@ -189,7 +189,7 @@ Plan plan_of(const std::vector<Copy>& copies, const place::PlacedRoom& room) {
 }
 
 Diagnostic too_many_copies(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, std::uint64_t most) {
-  const auto reach = reach_of(room, eye, spec);
+  const auto reach = reach_of(room, spec);
   return too_much(count_copies(*reach, room, eye, most), reach->max_bounces, most, fmt::format("{} copies allowed", most));
 }
 

@@ -1,5 +1,4 @@
-// Cut-offs that unfold and plan share. Size in the picture: a copy is the room's circumscribed circle times its height; at distance d it is
-// 2·asin(sinκ R / sinκ d) wide. A word goes on only behind the mirrors it has passed (a reduced word crosses each of them for good), so
+// Cut-offs that unfold and plan share. A word goes on only behind the mirrors it has passed (a reduced word crosses each of them for good), so
 // a subtree may be left out as soon as a copy at the distance of the last mirror would be too small. On S² nothing gets small, and nothing
 // is left out before its visit.
 #include "compiler/cover/reach.h"
@@ -7,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/cover/size.h"
 #include "compiler/notation/growth.h"
 #include "compiler/room/room.h"
 
@@ -19,19 +19,9 @@ using geometry::Space;
 
 bool is_integer(const Rational& value) { return denominator(value) == 1; }
 
-/// The smaller extent, in pixels, of a copy whose centre lies at distance d from the eye; large when the eye is inside its circle.
-double size_in_picture(const place::PlacedRoom& room, double eye_z, double pixels, double d) {
-  const double radius = room.room.circumradius;
-  const Space space = room.room.space;
-  if (d <= radius || (space == Space::spherical && std::numbers::pi - d <= radius)) return pixels;
-  const double width = 2 * std::asin(std::min(1.0, geometry::sin_k(space, radius) / geometry::sin_k(space, d)));
-  const double height = std::atan((room.height - eye_z) / (d - radius)) + std::atan(eye_z / (d - radius));
-  return pixels * std::min(width, height);
-}
-
 }  // namespace
 
-Result<Reach> reach_of(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec) {
+Result<Reach> reach_of(const place::PlacedRoom& room, const scene::CoverSpec& spec) {
   const auto& orbifold = room.room.orbifold;
   if (!std::all_of(orbifold.corners.begin(), orbifold.corners.end(), is_integer)) {
     return make_error(
@@ -72,7 +62,6 @@ Result<Reach> reach_of(const place::PlacedRoom& room, const place::Eye& eye, con
   }
   reach.max_bounces = static_cast<int>(reach.weight.size()) - 1;
   reach.min_pixels = spec.min_pixels;
-  reach.pixels = place::pixels_per_radian(eye);
   if (room.room.space == Space::spherical) {
     reach.half_turn = notation::longest_length(orbifold).value();
     // Every half turn passes all mirrors, plain walls included: behind one there is no second sheet.
@@ -99,7 +88,7 @@ void walk_reach(const Reach& reach, const place::PlacedRoom& room, const place::
   const Automaton automaton(room.room.orbifold, std::max(longest, 1));
   const Point eye_in_cover = eye.room_from_eye * Point();
   const Space space = room.room.space;
-  const auto size = [&](double d) { return size_in_picture(room, eye.z, reach.pixels, d); };
+  const CopySize size(room, eye);
   enumerate(automaton, reach.mirrors, longest, [&](const Element& element, const Isometry& cover_from_room) -> Walk {
     if (element.word.empty()) return visit(element, cover_from_room);
     const std::size_t last = element.word.back();
@@ -107,8 +96,8 @@ void walk_reach(const Reach& reach, const place::PlacedRoom& room, const place::
     if (reach.min_pixels > 0 && space != Space::spherical) {
       const Point here = inverse(cover_from_room) * eye_in_cover;
       const auto& line = room.room.walls[static_cast<std::size_t>(reach.wall[last])].line;
-      if (size(std::fabs(geometry::signed_distance(space, line, here))) < reach.min_pixels) return Walk::back;
-      if (size(geometry::arc_k(space, here.w, std::hypot(here.x, here.y))) < reach.min_pixels) return Walk::deeper;
+      if (size.at(std::fabs(geometry::signed_distance(space, line, here))) < reach.min_pixels) return Walk::back;
+      if (size.of(cover_from_room) < reach.min_pixels) return Walk::deeper;
     }
     return visit(element, cover_from_room);
   });

@@ -18,15 +18,15 @@ struct Reach {
   std::vector<geometry::Isometry> mirrors;  ///< by letter: the reflection in the wall
   int half_turn = 0;                        ///< S²: bounces of every path of length π, the length of the longest word; 0 elsewhere
   int sheets = 1;                           ///< S²: how many sheets have copies within reach
-  double min_pixels = 0, pixels = 1;        ///< pixels per radian in the middle of the picture
+  double min_pixels = 0;                    ///< copies smaller than this (size.h) are left out
 };
 
 /// In:          a furnished room of an orbifold whose walls' mirrors are all alike; mirrors on floor and ceiling are not looked at.
 /// Diagnostics: cover.mixed-mirrors, cover.not-an-orbifold: these need beams (beam.h).
-[[nodiscard]] Result<Reach> reach_of(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec);
+[[nodiscard]] Result<Reach> reach_of(const place::PlacedRoom& room, const scene::CoverSpec& spec);
 
 /// Visits every copy within reach of sheet 0 in the order of `enumerate`; visit(element, cover_from_room) → Walk. Copies behind plain walls
-/// and, conservatively, subtrees below `min_pixels` are passed over.
+/// and those below `min_pixels` are passed over.
 /// Why plain walls bar a wall's letter altogether: two reduced words of one element have the same letters (Tits), so whatever straight path
 /// leads to a copy whose word has the letter crosses an image of that wall.
 void walk_reach(const Reach& reach, const place::PlacedRoom& room, const place::Eye& eye,

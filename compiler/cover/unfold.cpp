@@ -31,7 +31,7 @@ Copy copy_of(const Reach& reach, const Element& element, const geometry::Isometr
 
 Result<std::vector<Copy>> unfold_by_group(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
                                           const UnfoldOptions& options) {
-  auto reach = reach_of(room, eye, spec);
+  auto reach = reach_of(room, spec);
   if (!reach) return reach.error();
   std::vector<std::vector<Copy>> by_bounces(static_cast<std::size_t>(reach->max_bounces) + 1);
   std::uint64_t count = 0;

@@ -20,8 +20,8 @@ struct UnfoldOptions {
 /// the eye's beams (beam.h), cut to wedges.
 /// In:          any convex room; plain walls and mirrors that leave part of a wall are fine: what is behind them is hidden.
 /// Makes:       copies by bounces, then sheet, then word; the room itself first. Memory grows with the output only.
-/// Exact:       words and their number (no float decides); `min_pixels` is measured: the smaller extent of the room's circumscribed
-///              cylinder in the middle of the picture; of beams their width.
+/// Exact:       words and their number (no float decides); `min_pixels` is measured, of both roads alike (size.h). What lies behind a
+///              copy that it leaves out is left out or hidden by a panel in the mirror through which that copy is seen (driver/tail.h).
 /// Diagnostics: cover.too-much beyond `max_copies`, with a max_bounces that fits.
 [[nodiscard]] Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
                                                const UnfoldOptions& options = {});

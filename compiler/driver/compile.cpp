@@ -1,5 +1,7 @@
 #include "compiler/driver/compile.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -68,13 +70,25 @@ ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels)
   return of;
 }
 
-/// Gives the room a look of the colour expected beyond, and its mirrors panels of it.
-void add_curtains(place::PlacedRoom& room, const scene::Color& color) {
-  place::Look look;
-  look.color = color;
-  look.material.kind = scene::MaterialKind::emissive;   // it is the light itself
-  room.looks.push_back(look);
-  for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(room.looks.size() - 1))) room.parts.push_back(std::move(panel));
+/// Gives the room panels for its mirrors, and a look for each of their colours; where there is none the panels are open. Makes: which parts they are.
+std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<std::optional<scene::Color>>& colors, const std::vector<double>& bands) {
+  const std::size_t first = room.looks.size();
+  for (const auto& color : colors) {
+    place::Look look;
+    look.color = color.value_or(scene::Color{});
+    look.material.kind = scene::MaterialKind::emissive;   // it is the light itself
+    room.looks.push_back(look);
+  }
+  std::vector<std::size_t> parts;
+  for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(first), bands)) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < panel.triangles.size(); ++t)
+      if (colors[panel.look[t] - first]) panel.triangles[kept] = panel.triangles[t], panel.look[kept++] = panel.look[t];
+    panel.triangles.resize(kept), panel.look.resize(kept);
+    parts.push_back(room.parts.size());
+    room.parts.push_back(std::move(panel));
+  }
+  return parts;
 }
 
 /// Why a scene cannot be compiled at all.
@@ -108,11 +122,16 @@ struct Ready {
   Painted painted;
   std::vector<bend::Model> models;
   bend::BendOptions bending;
-  std::uint64_t left_out = 0;
+  std::uint64_t left_out = 0, curtains = 0;
+  double left_out_px = 0;
+  bool hangs = false;           ///< whether there are panels in mirrors at all
+  bool curtains_dropped = false;
   LevelTally tally;
   Beyond beyond;
-  std::vector<std::uint32_t> without_curtains;   ///< the models as they are without the tail
 };
+
+/// What is done for the product itself, and left undone where only its triangles are asked for.
+enum class Purpose { product, plan };
 
 /// Levels of detail, and what a budget of triangles leaves. Makes: why it cannot be met, or nothing.
 Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, Ready& ready, const Executor& executor, const Progress& progress) {
@@ -120,22 +139,63 @@ Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, R
   report(progress, "levels of detail", 0, 0);
   if (options.levels && for_eye) ready.levels = make_levels(*opened.room, executor);
   else ready.levels.resize(opened.room->parts.size());
+  ready.hangs = for_eye;
   if (options.budget && for_eye) {
-    auto fitted = fit_to_budget(*opened.room, ready.levels, ready.copies, opened.eye, *options.budget, ready.bending, executor, progress);
+    auto fitted = fit_to_budget(opened, ready.levels, ready.copies, *options.budget, ready.bending, opened.expected_background, executor, progress);
     if (!fitted) return fitted.error();
     ready.copies = std::move(fitted->copies);
     ready.choice = std::move(fitted->choice);
     ready.bending.tolerance_px = fitted->tolerance_px;
-    ready.left_out = fitted->left_out;
+    ready.bending.max_triangles = bending_limit(*options.budget);
+    ready.left_out = fitted->left_out, ready.left_out_px = fitted->left_out_px;
+    ready.hangs = fitted->curtains;
+    ready.curtains_dropped = !fitted->curtains && (opened.expected_background || opened.scene.cover.min_pixels > 0 || fitted->left_out > 0);
   } else {
     ready.choice = for_eye ? choose_levels(*opened.room, ready.levels, ready.copies, opened.eye, ready.bending) : no_levels(*opened.room, ready.copies.size());
   }
+  ready.choice.model_of_copy.resize(ready.copies.size(), 0);
   ready.tally = tally(*opened.room, ready.levels, ready.choice);
   return {};
 }
 
-Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOptions& options, const light::BakeOptions& baking, const Executor& executor,
-                                         const Progress& progress) {
+/// What lies beyond the cover's end. Where only a weight is asked for, the room need not be looked at closely.
+Beyond look(const Opened& opened, const Ready& ready, bool expected, const LeftOut& left_out, Purpose purpose, const Executor& executor) {
+  constexpr double kRough = 0.004;   // of the room's radius
+  const std::vector<double> bands = left_out ? bands_of(*opened.room, opened.eye) : std::vector<double>{};
+  Beyond nothing{0, 0, opened.scene.cover.background, std::vector<std::optional<scene::Color>>(bands.size() + 1, scene::Color{})};
+  if (purpose == Purpose::plan) return nothing;
+  if (expected || left_out) return look_beyond(opened, *opened.room, {expected, left_out, bands}, executor);
+  return look_beyond(opened, rough(*opened.room, ready.levels, kRough * opened.room->room.circumradius), {}, executor);
+}
+
+/// Colours and models: of parts, levels, highlights and panels.
+Diagnostics dress(const Opened& opened, const CompileOptions& options, Ready& ready, Purpose purpose, const Executor& executor, const Progress& progress) {
+  Stock stock = stock_of(*opened.room, ready.levels, ready.choice);
+  const bool for_eye = options.bend.view == bend::View::eye, expected = ready.hangs && opened.expected_background;
+  const LeftOut left_out = ready.hangs ? left_out_below(opened, ready.left_out_px) : LeftOut{};
+  if (for_eye) ready.beyond = look(opened, ready, expected, left_out, purpose, executor);
+  std::vector<std::size_t> plain, banded;
+  if (expected) plain = add_curtains(stock.room, {ready.beyond.color}, {});
+  if (left_out) banded = add_curtains(stock.room, ready.beyond.by_height, bands_of(*opened.room, opened.eye));
+  report(progress, "atlas", 0, 0);
+  PaintOptions painting = options.paint;
+  painting.highlights = painting.highlights && for_eye;
+  painting.lit = purpose == Purpose::product;
+  auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), light::bake_options(opened.scene.bake), painting, executor, progress);
+  if (!painted) return painted.error();
+  ready.painted = std::move(painted).value();
+  ready.models = models_of(ready.painted.atlas, stock, ready.choice);
+  add_highlights(ready.painted, ready.models, ready.choice.model_of_copy);
+  const auto panels = [&](const std::vector<std::size_t>& parts) {
+    std::vector<bend::Model::Part> of;
+    for (const std::size_t i : parts) of.push_back({&ready.painted.atlas.room.parts[i], &ready.painted.atlas.uv[i]});
+    return of;
+  };
+  ready.curtains = hang(CutOffs(*opened.room, opened.scene.cover, left_out), ready.copies, {panels(plain), panels(banded)}, ready.models, ready.choice.model_of_copy);
+  return {};
+}
+
+Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOptions& options, Purpose purpose, const Executor& executor, const Progress& progress) {
   auto ready = std::make_unique<Ready>();   // models point into it
   report(progress, "unfolding", 0, 0);
   if (const auto no = refusal(opened, options, {})) return *no;
@@ -146,24 +206,7 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOpti
   ready->bending = options.bend;
   ready->bending.colours_vary = options.bend.colours_vary || light::needs_bake(opened.scene, *opened.room);
   if (auto wrong = choose_detail(opened, options, *ready, executor, progress); !wrong.empty()) return wrong;
-  Stock stock = stock_of(*opened.room, ready->levels, ready->choice);
-  const bool expected = opened.expected_background && options.bend.view == bend::View::eye;
-  const std::size_t first_curtain = stock.room.parts.size();
-  if (options.bend.view == bend::View::eye) ready->beyond = look_beyond(opened, expected, executor);
-  if (expected) add_curtains(stock.room, ready->beyond.color);
-  report(progress, "atlas", 0, 0);
-  ready->choice.model_of_copy.resize(ready->copies.size(), 0);
-  PaintOptions painting = options.paint;
-  painting.highlights = painting.highlights && options.bend.view == bend::View::eye;
-  auto painted = paint(opened, stock.room, ready->copies, parts_of(stock, ready->choice), baking, painting, executor, progress);
-  if (!painted) return painted.error();
-  ready->painted = std::move(painted).value();
-  ready->models = models_of(ready->painted.atlas, stock, ready->choice);
-  add_highlights(ready->painted, ready->models, ready->choice.model_of_copy);
-  ready->without_curtains = ready->choice.model_of_copy;
-  std::vector<bend::Model::Part> curtain;
-  for (std::size_t i = first_curtain; expected && i < stock.room.parts.size(); ++i) curtain.push_back({&ready->painted.atlas.room.parts[i], &ready->painted.atlas.uv[i]});
-  if (expected) hang(*opened.room, opened.scene.cover, ready->copies, curtain, ready->models, ready->choice.model_of_copy);
+  if (auto wrong = dress(opened, options, *ready, purpose, executor, progress); !wrong.empty()) return wrong;
   return ready;
 }
 
@@ -181,61 +224,112 @@ Result<cover::Plan> estimated(const Opened& opened, const CompileOptions& option
 }
 
 /// Whether the copies may take more than is allowed; splitting multiplies their triangles, but not by this.
-bool may_exceed(const Opened& opened, const CompileOptions& options, const Ready& ready) {
-  return cover::plan_of(ready.copies, *opened.room).bytes > options.max_memory / 64;
+bool may_exceed(const CompileOptions& options, const Ready& ready) {
+  constexpr double kSplit = 32;
+  const auto triangles = static_cast<double>(ready.tally.triangles), copies = static_cast<double>(ready.copies.size());
+  // A closed surface has half as many vertices as triangles; where looks meet, some more.
+  const double bytes = triangles * (cover::kBytesPerTriangle + cover::kBytesPerVertex) + copies * cover::kBytesPerCopy;
+  return kSplit * bytes > static_cast<double>(options.max_memory) / 2;
 }
 
-}  // namespace
+struct Made {
+  std::unique_ptr<Ready> ready;
+  bend::BentCover bent;
+};
 
-Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
-  auto prepared = get_ready(opened, options, light::bake_options(opened.scene.bake), executor, progress);
-  if (!prepared) return located(prepared.error(), opened.scene.span);
+Result<Made> make(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+  auto prepared = get_ready(opened, options, Purpose::product, executor, progress);
+  if (!prepared) return prepared.error();
   Ready& ready = **prepared;
-  if (may_exceed(opened, options, ready))
-    if (const auto planned = estimated(opened, options, ready, executor); !planned) return located(planned.error(), opened.scene.span);
+  if (may_exceed(options, ready))
+    if (const auto planned = estimated(opened, options, ready, executor); !planned) return planned.error();
   auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending, executor, progress);
-  if (bent && options.budget && bent->indices.size() / 3 > *options.budget)   // the tail is what one can do without
-    bent = bend::bend(ready.painted.atlas.room, ready.models, ready.without_curtains, ready.copies, opened.eye, ready.bending, executor, progress);
-  if (!bent) return located(bent.error(), opened.scene.span);
+  if (!bent) return bent.error();
+  return Made{std::move(prepared).value(), std::move(bent).value()};
+}
 
-  Compiled compiled;
-  Product& product = compiled.product;
+/// The same, never above the budget. That is met before there are colours; a baked picture cuts surfaces into blocks, whose triangles may be split in
+/// another order, and then a few more may come of it.
+Result<Made> make_within(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+  constexpr int kTries = 4;
+  CompileOptions tried = options;
+  for (int i = 0;; ++i) {
+    auto made = make(opened, tried, executor, progress);
+    if (!made || !options.budget || options.bend.view != bend::View::eye) return made;
+    const std::uint64_t triangles = made->bent.indices.size() / 3;
+    if (triangles <= *options.budget) return made;
+    if (i == kTries)
+      return make_error("bend.too-dense", fmt::format("{} triangles come out where {} are allowed", triangles, *options.budget), "allow more with --max-triangles");
+    tried.budget = *tried.budget - std::min(*tried.budget, 2 * (triangles - *options.budget));
+  }
+}
+
+Diagnostics notes_of(const CompileOptions& options, const Ready& ready) {
+  Diagnostics notes;
+  const std::string budget = fmt::format("--max-triangles {}", options.budget.value_or(0));
+  if (ready.left_out > 0)
+    notes.push_back(make_warning("driver.copies-left-out",
+                                 fmt::format("{} leaves out {} copies that are smaller than {:.3g} px in the picture", budget, ready.left_out, ready.left_out_px),
+                                 "allow more triangles, or lower cover.max_bounces"));
+  if (ready.curtains_dropped)
+    notes.push_back(make_warning("driver.no-curtains", fmt::format("{} has no room for the panels that hide what is not drawn: the background is seen there", budget),
+                                 "allow more triangles"));
+  return notes;
+}
+
+Product product_of(const Opened& opened, const CompileOptions& options, Ready& ready, bend::BentCover bent) {
+  Product product;
   product.title = notation::to_text(opened.scene.orbifold);
   product.eye = opened.eye;
   product.background = opened.scene.cover.background;
   product.atlas = std::move(ready.painted.atlas.image);
   product.blended_atlas = ready.painted.baked;
-  product.copies = drawn(ready.copies, bent->copies, opened.eye);
+  product.copies = drawn(ready.copies, bent.copies, opened.eye);
   for (std::size_t i = 0; i < product.copies.size(); ++i) product.copies[i].level = ready.tally.level_of_copy[i];
-  product.positions = std::move(bent->positions);
-  product.uv = std::move(bent->uv);
-  product.indices = std::move(bent->indices);
+  product.positions = std::move(bent.positions);
+  product.uv = std::move(bent.uv);
+  product.indices = std::move(bent.indices);
   product.flat_view = options.bend.view == bend::View::disk;
+  return product;
+}
 
-  Report& r = compiled.report;
+Report report_of(const Opened& opened, const Ready& ready, const Product& product, double bend_error_px) {
+  Report r;
   r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
-  r.error_bound_px = bent->error_bound_px + ready.choice.error_px;
+  r.error_bound_px = bend_error_px + ready.choice.error_px;
   r.highlights = ready.painted.highlights.counts;
-  r.weight_lost = ready.beyond.weight_lost;
+  r.weight_lost = ready.beyond.weight_lost, r.weight_merged = ready.beyond.weight_merged;
   r.triangles_whole = r.triangles + ready.tally.saved;
-  r.tolerance_px = ready.bending.tolerance_px, r.left_out = ready.left_out;
+  r.tolerance_px = ready.bending.tolerance_px;
+  r.left_out = ready.left_out, r.left_out_px = ready.left_out_px;
+  r.curtains = ready.curtains, r.curtains_dropped = ready.curtains_dropped;
   std::set<std::string> words;
-  for (const DrawnCopy& copy : product.copies) words.insert(cover::to_string(copy.word)), r.beams += copy.wedge ? 1 : 0;
+  for (const DrawnCopy& copy : product.copies) {
+    words.insert(cover::to_string(copy.word));
+    r.beams += copy.wedge ? 1 : 0;
+    r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
+  }
   r.words = words.size();
   for (std::size_t p = 0; p < ready.levels.size(); ++p)
     if (!ready.levels[p].empty()) r.levels.push_back(told(opened.room->parts[p], ready.levels[p]));
-  for (const DrawnCopy& copy : product.copies) r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
+  return r;
+}
+
+}  // namespace
+
+Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+  auto made = make_within(opened, options, executor, progress);
+  if (!made) return located(made.error(), opened.scene.span);
+  Compiled compiled;
+  const double bend_error_px = made->bent.error_bound_px;
+  compiled.product = product_of(opened, options, *made->ready, std::move(made->bent));
+  compiled.report = report_of(opened, *made->ready, compiled.product, bend_error_px);
+  compiled.notes = located(notes_of(options, *made->ready), opened.scene.span);
   return compiled;
 }
 
 Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor) {
-  // How fine the light is does not change what it is put on.
-  light::BakeOptions coarse;
-  coarse.coarse = coarse.fine = coarse.texture_fine = 0.01;
-  coarse.passing = {1, 0.01};
-  CompileOptions plain = options;
-  plain.paint.highlights = false;
-  const auto ready = get_ready(opened, plain, coarse, executor, {});
+  const auto ready = get_ready(opened, options, Purpose::plan, executor, {});
   if (!ready) return located(ready.error(), opened.scene.span);
   auto planned = estimated(opened, options, **ready, executor);
   if (!planned) return located(planned.error(), opened.scene.span);
@@ -265,7 +359,8 @@ std::string report_json(const Compiled& compiled) {
   const Report& r = compiled.report;
   nlohmann::ordered_json json{{"orbifold", compiled.product.title}, {"copies", r.copies}, {"vertices", r.vertices}, {"triangles", r.triangles},
                               {"triangles_without_levels", r.triangles_whole}, {"beams", r.beams}, {"words", r.words}, {"longest_word", r.longest_word},
-                              {"error_bound_px", r.error_bound_px}, {"tolerance_px", r.tolerance_px}, {"copies_left_out", r.left_out}, {"weight_lost", r.weight_lost},
+                              {"error_bound_px", r.error_bound_px}, {"tolerance_px", r.tolerance_px}, {"copies_left_out", r.left_out}, {"left_out_px", r.left_out_px}, {"weight_lost", r.weight_lost},
+                              {"weight_merged", r.weight_merged}, {"curtains", r.curtains}, {"curtains_dropped", r.curtains_dropped},
                               {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
                               {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
   if (!r.levels.empty()) {

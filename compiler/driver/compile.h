@@ -33,9 +33,13 @@ struct Report {
   std::uint64_t copies = 0, vertices = 0, triangles = 0;
   std::uint64_t triangles_whole = 0;  ///< about what they would be without levels of detail
   std::uint64_t beams = 0, words = 0; ///< copies that are cut to a wedge; distinct words
-  std::uint64_t left_out = 0;         ///< copies that a budget left out: smaller in the picture than the tolerance
+  std::uint64_t left_out = 0;         ///< copies that a budget left out: smaller in the picture than `left_out_px`
+  double left_out_px = 0;             ///< 0 when a budget left out none
+  std::uint64_t curtains = 0;         ///< panels in mirrors of copies, in the colour expected behind them (tail.h)
+  bool curtains_dropped = false;      ///< a budget had no room for them
   double error_bound_px = 0;
-  double weight_lost = 0;             ///< of paths that are cut off, mean over the picture: what the tail stands for
+  double weight_lost = 0;             ///< of paths that are cut off by bounces or weight, mean over the picture: what the tail stands for
+  double weight_merged = 0;           ///< the same of paths into copies left out for their size: what curtains stand for whatever the background
   double tolerance_px = 0;            ///< of bending and of levels: what was asked for, or what a budget allowed
   int longest_word = 0;
   std::vector<ToldLevels> levels;     ///< of the parts that have some
@@ -45,11 +49,13 @@ struct Report {
 struct Compiled {
   Product product;
   Report report;
+  Diagnostics notes;                  ///< what the author should know of it
 };
 
 /// unfold → levels → atlas → plan → bend: the upper road of compiler/README.md.
-/// Makes:       the same product for any executor.
-/// Diagnostics: those of cover, light and bend.
+/// Makes:       the same product for any executor; with a budget at most so many triangles. Copies left out for their size in the picture (`min_pixels`, or a
+///              budget) are hidden by panels in the mirrors through which they are seen, in the colour expected there.
+/// Diagnostics: those of cover, light and bend. Notes: driver.copies-left-out, driver.no-curtains.
 [[nodiscard]] Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress = {});
 
 /// What compiling would make, within 20 % (copies exactly), and whether it fits into the memory allowed. Goes as far as bending some of the copies.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -152,12 +153,6 @@ double largest_distance(const mesh::Mesh& a, const mesh::Nearest& to_a, const me
   return farthest(b, to_a, farthest(a, mesh::Nearest(b), 0));
 }
 
-/// A part on its way to its levels.
-struct Heavy {
-  std::size_t part = 0;
-  std::vector<mesh::Decimated> chain;
-};
-
 bool is_heavy(const PlacedMesh& part) {
   if (part.kind != place::PartKind::object || part.triangles.size() < kHeavy || !part.uv.empty()) return false;
   return std::set<std::uint16_t>(part.look.begin(), part.look.end()).size() <= 256;
@@ -189,19 +184,28 @@ std::vector<Level> levels_of(Space space, const PlacedMesh& part, const Executor
     flat.material.push_back(static_cast<std::uint8_t>(std::lower_bound(looks.begin(), looks.end(), look) - looks.begin()));
   std::vector<std::size_t> numbers;
   for (double n = kStep * static_cast<double>(part.triangles.size()); n >= kLightest; n *= kStep) numbers.push_back(static_cast<std::size_t>(n));
-  const auto chain = mesh::decimate_in_steps(flat, numbers);
   double area = 0;
   for (const auto& t : flat.triangles)
     area += length(cross(flat.positions[t[1]] - flat.positions[t[0]], flat.positions[t[2]] - flat.positions[t[0]])) / 2;
   const double h = std::min(std::max(chart.reach(), 1e-9) / 8, 4 * std::sqrt(area / static_cast<double>(flat.triangles.size()))) + 1e-12;
-  const Pieces given = pieces_of(part, flat.positions, chart, h);
-  const mesh::Nearest to_surface(given.surface), to_lines(given.lines);
+  std::vector<mesh::Decimated> chain;
+  Pieces given;
+  std::optional<mesh::Nearest> to_surface, to_lines;
+  executor(2, [&](std::size_t task) {
+    if (task == 0) {
+      chain = mesh::decimate_in_steps(flat, numbers);
+    } else {
+      given = pieces_of(part, flat.positions, chart, h);
+      to_surface.emplace(given.surface);
+      to_lines.emplace(given.lines);
+    }
+  });
   std::vector<Level> levels(chain.size());
   executor(chain.size(), [&](std::size_t i) {
     Level& level = levels[i];
     level.mesh = stand_in(part, chain[i], looks);
     const Pieces coarse = pieces_of(level.mesh, chain[i].mesh.positions, chart, h);
-    const double off = std::max(largest_distance(given.surface, to_surface, coarse.surface), largest_distance(given.lines, to_lines, coarse.lines));
+    const double off = std::max(largest_distance(given.surface, *to_surface, coarse.surface), largest_distance(given.lines, *to_lines, coarse.lines));
     level.error = chart.true_length(off + 2 * chart.sag(h));
   });
   // A coarser level is never better.
@@ -228,8 +232,9 @@ class Gatherer {
 
 Levels make_levels(const place::PlacedRoom& room, const Executor& executor) {
   Levels levels(room.parts.size());
-  for (std::size_t i = 0; i < room.parts.size(); ++i)
+  executor(room.parts.size(), [&](std::size_t i) {
     if (is_heavy(room.parts[i])) levels[i] = levels_of(room.room.space, room.parts[i], executor);
+  });
   return levels;
 }
 
@@ -264,8 +269,23 @@ Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const 
   return std::move(gatherer.choice_);
 }
 
+place::PlacedRoom rough(const place::PlacedRoom& room, const Levels& levels, double error) {
+  place::PlacedRoom stand_in;
+  stand_in.room = room.room, stand_in.height = room.height, stand_in.mirrors = room.mirrors, stand_in.looks = room.looks;
+  for (place::Look& look : stand_in.looks) look.texture = -1;
+  for (std::size_t p = 0; p < room.parts.size(); ++p) {
+    const Level* coarsest = nullptr;
+    for (const Level& level : levels[p])
+      if (level.error <= error) coarsest = &level;
+    stand_in.parts.push_back(coarsest ? coarsest->mesh : room.parts[p]);
+  }
+  return stand_in;
+}
+
 LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choice& choice) {
   LevelTally all;
+  std::uint64_t whole = 0;
+  for (const PlacedMesh& part : room.parts) whole += part.triangles.size();
   for (const std::uint32_t m : choice.model_of_copy) {
     int coarsest = 0;
     for (std::size_t p = 0; p < levels.size(); ++p) {
@@ -275,6 +295,7 @@ LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choi
     }
     all.level_of_copy.push_back(coarsest);
   }
+  all.triangles = whole * choice.model_of_copy.size() - all.saved;
   return all;
 }
 

@@ -36,10 +36,14 @@ struct Choice {
 /// Every copy whole.
 [[nodiscard]] Choice no_levels(const place::PlacedRoom& room, std::size_t copies);
 
-/// What a choice comes to.
+/// A stand-in of the room for questions about all of it at once: each part at its coarsest level within `error` (intrinsic length), without pictures.
+[[nodiscard]] place::PlacedRoom rough(const place::PlacedRoom& room, const Levels& levels, double error);
+
+/// What a choice comes to, before bending.
 struct LevelTally {
   std::vector<int> level_of_copy;   ///< the coarsest of its parts
-  std::uint64_t saved = 0;          ///< triangles, before bending
+  std::uint64_t saved = 0;          ///< triangles
+  std::uint64_t triangles = 0;      ///< of all copies
 };
 [[nodiscard]] LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choice& choice);
 

@@ -3,6 +3,16 @@
 #include "compiler/driver/see_in.h"
 
 namespace orbc::driver {
+namespace {
+
+/// Of a scene without lamps.
+Result<light::LightField> dark() {
+  light::LightField field;
+  field.ambient = {1, 1, 1};
+  return field;
+}
+
+}  // namespace
 
 Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
                       const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options,
@@ -15,13 +25,14 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
     return painted;
   }
   painted.baked = true;
-  const auto field = light::prepare_light(opened.scene, *opened.room, light::baked_light_options(opened.scene), executor);
+  const auto field = options.lit ? light::prepare_light(opened.scene, *opened.room, light::baked_light_options(opened.scene), executor) : dark();
   if (!field) return field.error();
   light::BakeOptions bake = baking;
   bake.max_side = options.max_side;
+  if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01;
   auto baked = light::bake(room, *field, bake, executor, progress);
   if (!baked) return baked.error();
-  if (options.highlights && light::needs_highlights(*opened.room, *field)) {
+  if (options.highlights && options.lit && light::needs_highlights(*opened.room, *field)) {
     light::HighlightOptions shine;
     shine.max_side = options.max_side;
     if (light::has_mirror_or_glass(*opened.room)) shine.seen_in = see_in(opened, executor);

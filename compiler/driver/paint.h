@@ -10,6 +10,7 @@ namespace orbc::driver {
 struct PaintOptions {
   bool highlights = true;  ///< of glossy and metal surfaces, and what is seen in mirror and glass objects, for this eye; false: diffuse light alone
   int max_side = 16384;    ///< pixels of the atlas
+  bool lit = true;         ///< false: only what triangles and vertices become of it, in plain colours
 };
 
 /// The colours of a cover: the room in its atlas, and what copies have of their own.

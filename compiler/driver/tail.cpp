@@ -1,128 +1,330 @@
-// A cut-off path shows weight × T, T the colour expected beyond: in exports a panel of colour T in the mirror, which its copy multiplies by its weight like
-// everything else. So both roads show the same, and the sum over endless mirrors is closed instead of cut.
+// A path that ends at a mirror shows weight × T, T the colour expected beyond: in exports a panel of colour T in the mirror, which its copy multiplies by
+// its weight like everything else. Of what is cut off by bounces or weight both roads show the same T, and the sum over endless mirrors is closed instead of
+// cut. Copies left out for their size the tracer does see: there T stands for many small things, by the height at which one looks through the mirror.
 #include "compiler/driver/tail.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
+#include "compiler/bend/detail.h"
+#include "compiler/cover/size.h"
 #include "compiler/light/shade.h"
+#include "compiler/notation/growth.h"
 #include "compiler/render/shade.h"
 
 namespace orbc::driver {
 namespace {
 
 constexpr int kColumns = 64, kRows = 48;   // of the picture
+constexpr int kCloser = 3;                 // times as many of each where copies left out are looked for: they are few
 constexpr int kDeeper = 96;                // bounces beyond the cut-off
 constexpr double kNothing = 1e-4;          // weight
-constexpr double kInto = 0.01;             // of the room's height
+constexpr double kInto = 0.25;             // of the room's height: more than the edges of floors are off by, far away
+constexpr double kSlack = 1e-6;            // of a size
+constexpr int kBands = 3;                  // above and below the eye
+
+struct Sum {
+  scene::Color weight, radiance;
+  int paths = 0, cut_off = 0;
+  void add(const scene::Color& w, const scene::Color& r, bool cut = false) { add({w, r, 1, cut ? 1 : 0}); }
+  void add(const Sum& more) {
+    weight = weight + more.weight, radiance = radiance + more.radiance;
+    paths += more.paths, cut_off += more.cut_off;
+  }
+  [[nodiscard]] bool empty() const { return !(largest(weight) > 0); }
+  [[nodiscard]] scene::Color color() const {
+    const auto share = [](double r, double w) { return w > 0 ? r / w : 0; };
+    return {share(radiance.r, weight.r), share(radiance.g, weight.g), share(radiance.b, weight.b)};
+  }
+};
+
+struct Row {
+  Sum depth;
+  std::vector<Sum> bands;
+  double lost = 0, merged = 0;
+};
+
+/// Where a path goes into the first copy that is left out.
+class Missing {
+ public:
+  Missing(const place::PlacedRoom& room, const BeyondOptions& options) : room_(room), options_(options) {
+    for (std::size_t wall = 0; wall < room_.room.walls.size(); ++wall) mirrors_.push_back(room::reflection_in_wall(room_.room, static_cast<int>(wall)));
+    const auto& corners = room_.room.orbifold.corners;
+    const bool whole = std::all_of(corners.begin(), corners.end(), [](const Rational& k) { return denominator(k) == 1; });
+    if (room_.room.space == geometry::Space::spherical && whole) half_turn_ = notation::longest_length(room_.room.orbifold).value_or(1);
+  }
+
+  /// How many mirrors are passed before it; the number of all when there is none.
+  [[nodiscard]] std::size_t first(const std::vector<std::int16_t>& word) const {
+    cover::Copy copy;
+    copy.cover_from_room = geometry::identity(room_.room.space);
+    int walls = 0;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      if (word[i] < 0) continue;   // a storey is as far away as the one before
+      copy.cover_from_room = copy.cover_from_room * mirrors_[static_cast<std::size_t>(word[i])];
+      copy.bounces = static_cast<int>(i) + 1;
+      // Every half turn passes as many mirrors.
+      copy.sheet = half_turn_ > 0 ? walls++ / half_turn_ : 0;
+      if (options_.left_out(copy)) return i;
+    }
+    return word.size();
+  }
+
+  [[nodiscard]] std::size_t band_at(const orbc::trace::Path& path, const orbc::trace::Ray& ray) const {
+    const double z = ray.z + path.length * ray.m;
+    return static_cast<std::size_t>(std::upper_bound(options_.bands.begin(), options_.bands.end(), z) - options_.bands.begin());
+  }
+
+ private:
+  const place::PlacedRoom& room_;
+  const BeyondOptions& options_;
+  std::vector<geometry::Isometry> mirrors_;
+  int half_turn_ = 0;
+};
 
 }  // namespace
 
-Beyond look_beyond(const Opened& opened, bool with_color, const Executor& executor) {
+LeftOut left_out_below(const Opened& opened, double budget_px) {
   const scene::CoverSpec& spec = opened.scene.cover;
-  const orbc::trace::TraceScene scene = orbc::trace::prepare(*opened.room, executor);
-  light::LightField light;
-  if (with_color) {
-    light::LightOptions direct = light::light_options(opened.scene);
-    direct.passes = 0;
-    light = light::prepare_light(opened.scene, *opened.room, direct, executor).value();
-  }
-  render::DrawOptions shown, deep;
-  shown.max_bounces = spec.max_bounces, shown.min_weight = spec.min_weight;
-  deep.max_bounces = spec.max_bounces + kDeeper, deep.min_weight = kNothing;
-  deep.light = light.lit ? &light : nullptr;
-  struct Row {
-    scene::Color weight, radiance;
-    double lost = 0;
+  if (!(spec.min_pixels > 0) && !(budget_px > 0)) return {};
+  const place::PlacedRoom& room = *opened.room;
+  const bend::Extent whole{{}, room.room.circumradius, 0, room.height};
+  return [spec, budget_px, whole, size = cover::CopySize(room, opened.eye), detail = bend::Detail(opened.eye, {})](const cover::Copy& copy) {
+    if (copy.bounces == 0) return false;
+    if (spec.min_pixels > 0 && cover::too_small(size.of(copy.cover_from_room), spec, kSlack)) return true;
+    return budget_px > 0 && detail.smaller_side_px(copy, whole) < budget_px * (1 + kSlack);
   };
-  std::vector<Row> rows(kRows);
-  executor(kRows, [&](std::size_t j) {
-    for (int i = 0; i < kColumns; ++i) {
-      const orbc::trace::Ray ray = render::eye_ray(opened.eye, (i + 0.5) * opened.eye.width / kColumns, (static_cast<double>(j) + 0.5) * opened.eye.height / kRows);
-      const orbc::trace::Path path = orbc::trace::follow(scene, ray, render::follow_options(shown));
-      if (!path.cut_off) continue;
-      rows[j].lost += largest(path.weight);
-      rows[j].weight = rows[j].weight + path.weight;
-      if (with_color) rows[j].radiance = rows[j].radiance + render::radiance(scene, ray, deep).radiance;
+}
+
+namespace {
+
+/// Looks along the rays of a grid.
+class Looker {
+ public:
+  Looker(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor)
+      : opened_(opened), options_(options), executor_(executor), scene_(orbc::trace::prepare(room, executor)), missing_(room, options) {
+    const scene::CoverSpec& spec = opened.scene.cover;
+    if (options.color || options.left_out) {
+      light::LightOptions direct = light::light_options(opened.scene);
+      direct.passes = 0;
+      light_ = light::prepare_light(opened.scene, room, direct, executor).value();
     }
-  });
-  Row all;
-  for (const Row& row : rows) all.weight = all.weight + row.weight, all.radiance = all.radiance + row.radiance, all.lost += row.lost;
-  Beyond beyond{all.lost / (kColumns * kRows), spec.background};
-  const auto share = [](double radiance, double weight) { return weight > 0 ? radiance / weight : 0; };
-  if (with_color && all.lost > 0)
-    beyond.color = {share(all.radiance.r, all.weight.r), share(all.radiance.g, all.weight.g), share(all.radiance.b, all.weight.b)};
+    shown_.max_bounces = spec.max_bounces, shown_.min_weight = spec.min_weight;
+    shown_.light = light_.lit ? &light_ : nullptr;
+    shown_.background = light_.lit && light_.exposure > 0 ? (1 / light_.exposure) * spec.background : spec.background;
+    deep_ = shown_;
+    deep_.background = {};
+    deep_.max_bounces = spec.max_bounces + kDeeper, deep_.min_weight = kNothing;
+  }
+
+  /// Those that the tracer itself does not follow.
+  Beyond cut_off() {
+    Beyond beyond{0, 0, opened_.scene.cover.background, {}};
+    Sum all;
+    for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray& ray, Row& row) { cut_off(ray, row); })) {
+      all.add(row.depth);
+      beyond.weight_lost += row.lost / (kColumns * kRows);
+    }
+    if (options_.color && !all.empty()) beyond.color = all.color();
+    return beyond;
+  }
+
+  /// Those that meet a copy left out. `expected`: what the tracer shows where it cuts off.
+  void merged(bool expected, Beyond& beyond) {
+    if (expected) shown_.background = beyond.color, shown_.weighs_background = true;
+    constexpr int columns = kCloser * kColumns, lines = kCloser * kRows;
+    std::vector<Sum> bands(options_.bands.size() + 1);
+    for (const Row& row : rows(columns, lines, [&](const orbc::trace::Ray& ray, Row& row) { merged(ray, row); })) {
+      for (std::size_t b = 0; b < bands.size(); ++b) bands[b].add(row.bands[b]);
+      beyond.weight_merged += row.merged / (columns * lines);
+    }
+    Sum all;
+    for (const Sum& band : bands) all.add(band);
+    // Too few to be met: they show what the others show.
+    if (all.empty())
+      for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray& ray, Row& row) { everything(ray, row); })) all.add(row.depth);
+    const double exposure = light_.lit ? light_.exposure : 1;
+    for (const Sum& band : bands) {
+      const scene::Color color = band.empty() ? all.color() : band.color();
+      if (!expected && 2 * band.cut_off > band.paths && exposure * largest(color) > 1) beyond.by_height.push_back(std::nullopt);
+      else beyond.by_height.push_back(color);
+    }
+  }
+
+ private:
+  template <class Look>
+  std::vector<Row> rows(int columns, int lines, const Look& look) const {
+    std::vector<Row> rows(static_cast<std::size_t>(lines));
+    executor_(rows.size(), [&](std::size_t j) {
+      rows[j].bands.resize(options_.bands.size() + 1);
+      for (int i = 0; i < columns; ++i)
+        look(render::eye_ray(opened_.eye, (i + 0.5) * opened_.eye.width / columns, (static_cast<double>(j) + 0.5) * opened_.eye.height / lines), rows[j]);
+    });
+    return rows;
+  }
+
+  void cut_off(const orbc::trace::Ray& ray, Row& row) const {
+    const orbc::trace::Path path = orbc::trace::follow(scene_, ray, render::follow_options(shown_));
+    if (!path.cut_off) return;
+    row.lost += largest(path.weight);
+    if (options_.color) row.depth.add(path.weight, render::radiance(scene_, ray, deep_).radiance);
+  }
+
+  void merged(const orbc::trace::Ray& ray, Row& row) const {
+    orbc::trace::FollowOptions follow = render::follow_options(shown_);
+    follow.record_word = true;
+    const orbc::trace::Path path = orbc::trace::follow(scene_, ray, follow);
+    const std::size_t mirrors = missing_.first(path.word);
+    if (mirrors == path.word.size()) return;
+    follow.max_bounces = static_cast<int>(mirrors);
+    const orbc::trace::Path short_path = orbc::trace::follow(scene_, ray, follow);
+    row.merged += largest(short_path.weight);
+    row.bands[missing_.band_at(short_path, ray)].add(short_path.weight, render::radiance(scene_, path, shown_).radiance, path.cut_off);
+  }
+
+  void everything(const orbc::trace::Ray& ray, Row& row) const {
+    const render::Seen seen = render::radiance(scene_, ray, shown_);
+    row.depth.add(seen.path.weight, seen.radiance);
+  }
+
+  const Opened& opened_;
+  const BeyondOptions& options_;
+  const Executor& executor_;
+  orbc::trace::TraceScene scene_;
+  Missing missing_;
+  light::LightField light_;
+  render::DrawOptions shown_, deep_;
+};
+
+}  // namespace
+
+Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor) {
+  Looker looker(opened, room, options, executor);
+  Beyond beyond = looker.cut_off();
+  if (options.left_out) looker.merged(options.color, beyond);
   return beyond;
 }
 
-std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t look) {
+std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& eye) {
+  std::vector<double> bands;
+  if (std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; })) return bands;
+  for (int k = 1; k < kBands; ++k) bands.push_back(eye.z * k / kBands);
+  for (int k = 0; k < kBands; ++k) bands.push_back(eye.z + (room.height - eye.z) * k / kBands);
+  return bands;
+}
+
+namespace {
+
+/// A panel on a wall: columns of pieces, since walls of S² are long, and rows of bands.
+place::PlacedMesh wall_panel(const place::PlacedRoom& room, const place::PlacedMirror& mirror, double bottom, double top, std::uint16_t first_look,
+                             const std::vector<double>& bands) {
+  place::PlacedMesh panel;
+  panel.kind = place::PartKind::wall, panel.wall = mirror.wall;
+  std::vector<double> heights{bottom};
+  std::vector<std::uint16_t> looks;
+  for (std::size_t b = 0; b <= bands.size(); ++b) {
+    const double to = b < bands.size() ? std::min(bands[b], top) : top;
+    if (to > heights.back()) heights.push_back(to), looks.push_back(static_cast<std::uint16_t>(first_look + b));
+  }
+  const double length = mirror.span[1] - mirror.span[0];
+  const auto pieces = static_cast<std::uint32_t>(std::clamp(std::ceil(length), 1.0, 64.0));
+  const auto rows = static_cast<std::uint32_t>(heights.size());
+  for (std::uint32_t k = 0; k <= pieces; ++k) {
+    const geometry::Point p = room::point_on_wall(room.room, mirror.wall, mirror.span[0] + length * k / pieces);
+    for (const double z : heights) panel.floor.push_back(p), panel.z.push_back(z);
+    for (std::uint32_t j = 0; k < pieces && j + 1 < rows; ++j) {
+      const std::uint32_t at = rows * k + j;
+      panel.triangles.push_back({at, at + rows, at + rows + 1});
+      panel.triangles.push_back({at, at + rows + 1, at + 1});
+      panel.look.insert(panel.look.end(), 2, looks[j]);
+    }
+  }
+  return panel;
+}
+
+place::PlacedMesh level_panel(const place::PlacedRoom& room, bool floor, std::uint16_t look) {
+  place::PlacedMesh panel;
+  panel.kind = floor ? place::PartKind::floor : place::PartKind::ceiling;
+  panel.floor = room.room.outline;
+  panel.floor.emplace_back();
+  panel.z.assign(panel.floor.size(), floor ? 0 : room.height);
+  const auto n = static_cast<std::uint32_t>(room.room.outline.size());
+  for (std::uint32_t k = 0; k < n; ++k) panel.triangles.push_back(floor ? mesh::Triangle{n, k, (k + 1) % n} : mesh::Triangle{n, (k + 1) % n, k});
+  panel.look.assign(panel.triangles.size(), look);
+  return panel;
+}
+
+}  // namespace
+
+std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands) {
   std::vector<place::PlacedMesh> panels;
   const bool stacked = std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; });
   for (const place::PlacedMirror& mirror : room.mirrors) {
-    place::PlacedMesh panel;
-    panel.name = "curtain";
-    const auto add = [&](const geometry::Point& p, double z) { panel.floor.push_back(p), panel.z.push_back(z); };
     if (mirror.wall >= 0) {
-      panel.kind = place::PartKind::wall, panel.wall = mirror.wall;
       // Into floor and ceiling, which hide it there: their edges are split otherwise, and nothing shall shine through between.
       const double bottom = mirror.height[0] - (stacked || mirror.height[0] > 0 ? 0 : kInto * room.height);
       const double top = mirror.height[1] + (stacked || mirror.height[1] < room.height ? 0 : kInto * room.height);
-      const double length = mirror.span[1] - mirror.span[0];
-      const auto pieces = static_cast<std::uint32_t>(std::clamp(std::ceil(length), 1.0, 64.0));   // walls of S² are long
-      for (std::uint32_t k = 0; k <= pieces; ++k) {
-        const geometry::Point p = room::point_on_wall(room.room, mirror.wall, mirror.span[0] + length * k / pieces);
-        add(p, bottom), add(p, top);
-        if (k == pieces) break;
-        panel.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 3});
-        panel.triangles.push_back({2 * k, 2 * k + 3, 2 * k + 1});
-      }
+      panels.push_back(wall_panel(room, mirror, bottom, top, first_look, bands));
     } else {
-      const bool floor = mirror.wall == -1;
-      panel.kind = floor ? place::PartKind::floor : place::PartKind::ceiling;
-      for (const geometry::Point& p : room.room.outline) add(p, floor ? 0 : room.height);
-      const auto n = static_cast<std::uint32_t>(panel.floor.size());
-      add({}, floor ? 0 : room.height);
-      for (std::uint32_t k = 0; k < n; ++k) panel.triangles.push_back(floor ? mesh::Triangle{n, k, (k + 1) % n} : mesh::Triangle{n, (k + 1) % n, k});
+      panels.push_back(level_panel(room, mirror.wall == -1, first_look));
     }
-    panel.look.assign(panel.triangles.size(), look);
-    panels.push_back(std::move(panel));
+    panels.back().name = "curtain";
   }
   return panels;
 }
 
-std::vector<bool> cut_mirrors(const place::PlacedRoom& room, const scene::CoverSpec& spec, const cover::Copy& copy) {
-  std::vector<bool> cut(room.mirrors.size(), false);
-  for (std::size_t i = 0; i < room.mirrors.size(); ++i) {
-    const place::PlacedMirror& mirror = room.mirrors[i];
-    const bool last = copy.bounces >= spec.max_bounces || largest(mirror.reflectance * (mirror.tint * copy.weight)) < spec.min_weight;
-    if (!last) continue;
+CutOffs::CutOffs(const place::PlacedRoom& room, const scene::CoverSpec& spec, LeftOut left_out) : room_(room), spec_(spec), left_out_(std::move(left_out)) {
+  for (const place::PlacedMirror& mirror : room.mirrors)
+    behind_.push_back(mirror.wall < 0 ? geometry::identity(room.room.space) : room::reflection_in_wall(room.room, mirror.wall));
+}
+
+std::vector<CutOff> CutOffs::of(const cover::Copy& copy) const {
+  std::vector<CutOff> ends(room_.mirrors.size(), CutOff::no);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const place::PlacedMirror& mirror = room_.mirrors[i];
+    const bool last = copy.bounces >= spec_.max_bounces || largest(mirror.reflectance * (mirror.tint * copy.weight)) < spec_.min_weight;
     if (mirror.wall < 0) {
       // On a storey above one looks up, through what is its ceiling, or its floor when it stands on its head.
       const int way = mirror.wall == -2 ? 1 : -1, towards = copy.storey.sign > 0 ? way : -way;
-      if (copy.storey.number * towards < 0) continue;
+      if (last && copy.storey.number * towards >= 0) ends[i] = CutOff::depth;
+      continue;
     }
-    cut[i] = true;
+    if (last) {
+      ends[i] = CutOff::depth;
+    } else if (left_out_ && (mirror.wall >= 64 || !((copy.nearer_walls >> mirror.wall) & 1))) {
+      cover::Copy next;
+      next.cover_from_room = copy.cover_from_room * behind_[i];
+      next.bounces = copy.bounces + 1, next.sheet = copy.sheet, next.storey = copy.storey;
+      if (left_out_(next)) ends[i] = CutOff::size;
+    }
   }
-  return cut;
+  return ends;
 }
 
-void hang(const place::PlacedRoom& room, const scene::CoverSpec& spec, const std::vector<cover::Copy>& copies, const std::vector<bend::Model::Part>& curtain,
-          std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
-  std::map<std::pair<std::uint32_t, std::vector<bool>>, std::uint32_t> known;
+std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copies, const Curtains& curtains, std::vector<bend::Model>& models,
+                   std::vector<std::uint32_t>& model_of_copy) {
+  std::uint64_t hung = 0;
+  std::map<std::pair<std::uint32_t, std::vector<CutOff>>, std::uint32_t> known;
   for (std::size_t i = 0; i < copies.size(); ++i) {
-    const std::vector<bool> cut = cut_mirrors(room, spec, copies[i]);
-    if (std::find(cut.begin(), cut.end(), true) == cut.end()) continue;
-    const auto [at, is_new] = known.try_emplace({model_of_copy[i], cut}, static_cast<std::uint32_t>(models.size()));
+    std::vector<CutOff> ends = cut_offs.of(copies[i]);
+    if (curtains.depth.empty()) std::replace(ends.begin(), ends.end(), CutOff::depth, CutOff::no);
+    if (curtains.size.empty()) std::replace(ends.begin(), ends.end(), CutOff::size, CutOff::no);
+    const auto here = static_cast<std::uint64_t>(std::count_if(ends.begin(), ends.end(), [](CutOff end) { return end != CutOff::no; }));
+    if (here == 0) continue;
+    hung += here;
+    const auto [at, is_new] = known.try_emplace({model_of_copy[i], ends}, static_cast<std::uint32_t>(models.size()));
     if (is_new) {
       bend::Model model = models[model_of_copy[i]];
-      for (std::size_t m = 0; m < curtain.size(); ++m)
-        if (cut[m]) model.parts.push_back(curtain[m]);
+      for (std::size_t m = 0; m < ends.size(); ++m)
+        if (ends[m] != CutOff::no) model.parts.push_back(ends[m] == CutOff::depth ? curtains.depth[m] : curtains.size[m]);
       models.push_back(std::move(model));
     }
     model_of_copy[i] = at->second;
   }
+  return hung;
 }
 
 }  // namespace orbc::driver

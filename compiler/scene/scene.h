@@ -188,7 +188,7 @@ struct Camera {
 struct CoverSpec {
   int max_bounces = 12;
   double min_weight = 0;            ///< paths whose weight (largest channel) is below it end
-  double min_pixels = 0;            ///< exports only: copies smaller than this in the picture are left out
+  double min_pixels = 0;            ///< exports only: copies smaller than this in the picture are merged: a panel of their mean colour stands for them
   Color background{0, 0, 0};        ///< what is seen where a path ends at a mirror
   bool background_expected = false; ///< instead of it the colour expected beyond, times the path's weight
 };

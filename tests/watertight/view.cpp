@@ -93,9 +93,12 @@ bool meets(const Vector3 (&corner)[3], const Vector3& d) {
 
 }  // namespace
 
-std::vector<bool> covered(const driver::Product& product) {
+namespace {
+
+/// Calls hit(triangle, pixel, direction) for every pixel whose centre sees a triangle, nearest or not.
+template <class Hit>
+void for_hits(const driver::Product& product, const Hit& hit) {
   const place::Eye& eye = product.eye;
-  std::vector<bool> seen(static_cast<std::size_t>(eye.width) * static_cast<std::size_t>(eye.height));
   std::vector<Vector3> rays;
   for (int y = 0; y < eye.height; ++y)
     for (int x = 0; x < eye.width; ++x) rays.push_back(place::direction_through(eye, x + 0.5, y + 0.5));
@@ -110,11 +113,50 @@ std::vector<bool> covered(const driver::Product& product) {
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
         const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width) + static_cast<std::size_t>(x);
-        if (!seen[pixel] && meets(corner, rays[pixel])) seen[pixel] = true;
+        if (meets(corner, rays[pixel])) hit(i, corner, pixel, rays[pixel]);
       }
     }
   }
+}
+
+}  // namespace
+
+std::vector<bool> covered(const driver::Product& product) {
+  std::vector<bool> seen(static_cast<std::size_t>(product.eye.width) * static_cast<std::size_t>(product.eye.height));
+  for_hits(product, [&](std::size_t, const Vector3 (&)[3], std::size_t pixel, const Vector3&) { seen[pixel] = true; });
   return seen;
+}
+
+std::vector<scene::Color> picture(const driver::Product& product) {
+  struct Seen {
+    double depth = 1e30;
+    std::size_t triangle = 0;
+    double u = 0, v = 0;
+  };
+  std::vector<Seen> nearest(static_cast<std::size_t>(product.eye.width) * static_cast<std::size_t>(product.eye.height));
+  for_hits(product, [&](std::size_t triangle, const Vector3 (&corner)[3], std::size_t pixel, const Vector3& d) {
+    const Vector3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double t = dot(normal, corner[0]) / dot(normal, d), area = dot(normal, normal);
+    if (!(t < nearest[pixel].depth) || !(area > 0)) return;
+    const Vector3 p = t * d;
+    const double b1 = dot(cross(p - corner[0], corner[2] - corner[0]), normal) / area, b2 = dot(cross(corner[1] - corner[0], p - corner[0]), normal) / area;
+    const auto uv = [&](std::size_t k) { return product.uv[product.indices[triangle + k]]; };
+    nearest[pixel] = {t, triangle, uv(0)[0] + b1 * (uv(1)[0] - uv(0)[0]) + b2 * (uv(2)[0] - uv(0)[0]),
+                      uv(0)[1] + b1 * (uv(1)[1] - uv(0)[1]) + b2 * (uv(2)[1] - uv(0)[1])};
+  });
+  std::vector<scene::Color> colors(nearest.size(), product.background);
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    if (nearest[i].depth > 1e29) continue;
+    const auto copy = std::upper_bound(product.copies.begin(), product.copies.end(), nearest[i].triangle,
+                                       [](std::size_t at, const driver::DrawnCopy& c) { return at < c.first_index; });
+    const auto texel = [](double at, int size) { return std::clamp(static_cast<int>(at * size), 0, size - 1); };
+    const mesh::Image& atlas = product.atlas;
+    const std::size_t at = 4 * (static_cast<std::size_t>(texel(nearest[i].v, atlas.height)) * static_cast<std::size_t>(atlas.width) +
+                                static_cast<std::size_t>(texel(nearest[i].u, atlas.width)));
+    const auto linear = [&](std::size_t k) { return scene::decode_srgb(atlas.rgba[at + k] / 255.0); };
+    colors[i] = scene::Color{linear(0), linear(1), linear(2)} * (copy - 1)->tint;
+  }
+  return colors;
 }
 
 Holes holes(const driver::Opened& opened, const driver::Product& product, const trace::TraceScene& scene) {

@@ -117,25 +117,36 @@ TEST_CASE("the stock holds the levels in use, and each once", "[driver]") {
 }
 
 TEST_CASE("a budget of triangles is met, with less error the more there may be", "[driver]") {
-  const auto room = room_with_knot(GENERATE(4, 5));
+  driver::Opened opened;
+  opened.room = std::make_unique<place::PlacedRoom>(room_with_knot(GENERATE(4, 5)));
+  const auto& room = *opened.room;
   const auto levels = driver::make_levels(room, serial_executor());
   const auto copies = copies_of(room, 4);
-  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  opened.eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  const bool expected = GENERATE(false, true);
+  if (expected) opened.scene.cover.max_bounces = 4;   // panels all round
   const bend::BendOptions options;
   double last = 1e9;
   for (const std::uint64_t budget : {2'000, 6'000, 20'000, 60'000, 1'000'000}) {
-    const auto fitted = driver::fit_to_budget(room, levels, copies, eye, budget, options, serial_executor());
+    const auto fitted = driver::fit_to_budget(opened, levels, copies, budget, options, expected, serial_executor());
     REQUIRE(fitted.has_value());
     CHECK(fitted->triangles <= budget);
     // The eye stands close to the knot: what is around it becomes coarse last of all.
     if (budget >= 20'000) CHECK(fitted->triangles >= std::min<std::uint64_t>(budget, 60'000) / 8);
     CHECK(fitted->tolerance_px <= last);
     CHECK(fitted->copies.size() + fitted->left_out == copies.size());
+    CHECK((fitted->left_out > 0) == (fitted->left_out_px > 0));
+    // All copies become coarser before any is left out.
+    if (fitted->tolerance_px < 1 && fitted->left_out > 0) CHECK_FALSE(driver::fit_to_budget(opened, levels, copies, budget, [&] {
+      bend::BendOptions pixel = options;
+      pixel.tolerance_px = 1;
+      return pixel;
+    }(), expected, serial_executor())->left_out == 0);
     CHECK(fitted->choice.error_px <= fitted->tolerance_px);
     last = fitted->tolerance_px;
     if (budget == 1'000'000) CHECK(fitted->tolerance_px == options.tolerance_px);
   }
-  const auto refused = driver::fit_to_budget(room, levels, copies, eye, 10, options, serial_executor());
+  const auto refused = driver::fit_to_budget(opened, levels, copies, 10, options, expected, serial_executor());
   REQUIRE(!refused.has_value());
   CHECK(refused.error().front().code == "bend.too-dense");
 }

@@ -2,11 +2,15 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
+#include "compiler/room/room.h"
 #include "tests/unit/bend/fixture.h"
 
 using namespace orbc;
 using namespace orbc::bend::test;
+using driver::CutOff;
+using Ends = std::vector<CutOff>;
 
 TEST_CASE("paths are cut off where copies have no bounce left, or not enough weight for one more", "[driver]") {
   const auto room = regular_room(5, 2);
@@ -15,13 +19,13 @@ TEST_CASE("paths are cut off where copies have no bounce left, or not enough wei
   cover::Copy copy;
   copy.bounces = 2;
   copy.weight = {0.81, 0.81, 0.81};
-  CHECK(driver::cut_mirrors(room, spec, copy) == std::vector<bool>(5, false));
+  CHECK(driver::CutOffs(room, spec).of(copy) == Ends(5, CutOff::no));
   spec.min_weight = 0.75;
-  CHECK(driver::cut_mirrors(room, spec, copy) == std::vector<bool>(5, true));
+  CHECK(driver::CutOffs(room, spec).of(copy) == Ends(5, CutOff::depth));
   spec.min_weight = 0.7;
-  CHECK(driver::cut_mirrors(room, spec, copy) == std::vector<bool>(5, false));
+  CHECK(driver::CutOffs(room, spec).of(copy) == Ends(5, CutOff::no));
   copy.bounces = 3;
-  CHECK(driver::cut_mirrors(room, spec, copy) == std::vector<bool>(5, true));
+  CHECK(driver::CutOffs(room, spec).of(copy) == Ends(5, CutOff::depth));
 }
 
 TEST_CASE("storeys are cut off on the side away from the room", "[driver]") {
@@ -34,11 +38,66 @@ TEST_CASE("storeys are cut off on the side away from the room", "[driver]") {
   cover::Copy copy;
   copy.bounces = 1;
   copy.storey = {1, -1, 2};   // above, on its head: its floor is up
-  CHECK((driver::cut_mirrors(room, spec, copy) == std::vector<bool>{false, true}));
+  CHECK((driver::CutOffs(room, spec).of(copy) == Ends{CutOff::no, CutOff::depth}));
   copy.storey = {-1, -1, 0};
-  CHECK((driver::cut_mirrors(room, spec, copy) == std::vector<bool>{true, false}));
+  CHECK((driver::CutOffs(room, spec).of(copy) == Ends{CutOff::depth, CutOff::no}));
   copy.storey = {};
-  CHECK((driver::cut_mirrors(room, spec, copy) == std::vector<bool>{true, true}));
+  CHECK((driver::CutOffs(room, spec).of(copy) == Ends{CutOff::depth, CutOff::depth}));
+}
+
+TEST_CASE("a mirror ends where the copy behind it is left out, and only there", "[driver]") {
+  const auto room = regular_room(5, 2);
+  scene::CoverSpec spec;
+  spec.max_bounces = 5;
+  const geometry::Isometry behind_2 = room::reflection_in_wall(room.room, 2);
+  const auto left_out = [&](const cover::Copy& copy) {
+    CHECK(copy.bounces == 1);
+    return distance(room.room.space, copy.cover_from_room * geometry::Point(), behind_2 * geometry::Point()) < 1e-9;
+  };
+  cover::Copy copy;
+  CHECK((driver::CutOffs(room, spec, left_out).of(copy) == Ends{CutOff::no, CutOff::no, CutOff::size, CutOff::no, CutOff::no}));
+  // Not by the wall through which one came; and what the tracer does not reflect either is cut off by depth.
+  copy.nearer_walls = 1 << 2;
+  CHECK(driver::CutOffs(room, spec, left_out).of(copy) == Ends(5, CutOff::no));
+  copy.nearer_walls = 0;
+  spec.max_bounces = 0;
+  CHECK(driver::CutOffs(room, spec, left_out).of(copy) == Ends(5, CutOff::depth));
+}
+
+TEST_CASE("copies that need the same panels share a model", "[driver]") {
+  const auto room = regular_room(5, 2);
+  scene::CoverSpec spec;
+  spec.max_bounces = 1;
+  std::vector<cover::Copy> copies(4);
+  for (std::size_t i = 1; i < copies.size(); ++i) copies[i].bounces = 1;
+  const auto panels = driver::curtains(room, 3);
+  std::vector<bend::Uv> uv;
+  driver::Curtains hung;
+  for (const auto& panel : panels) uv.emplace_back(panel.floor.size());
+  for (std::size_t i = 0; i < panels.size(); ++i) hung.depth.push_back({&panels[i], &uv[i]});
+  std::vector<bend::Model> models(2);
+  std::vector<std::uint32_t> model_of_copy{0, 0, 0, 1};
+  CHECK(driver::hang(driver::CutOffs(room, spec), copies, hung, models, model_of_copy) == 15);
+  CHECK((model_of_copy == std::vector<std::uint32_t>{0, 2, 2, 3}));
+  CHECK(models[2].parts.size() == 5);
+}
+
+TEST_CASE("panels have a look for each band of heights, and no vertex within an edge", "[driver]") {
+  auto room = regular_room(GENERATE(3, 4, 5), 2);
+  room.mirrors[0].height[0] = 0.3 * room.height;   // begins within a band
+  room.mirrors[1].height[1] = 0.2 * room.height;   // ends in the first
+  const std::vector<double> bands{0.25 * room.height, 0.5 * room.height};
+  const auto panels = driver::curtains(room, 7, bands);
+  const auto looks = [&](std::size_t i) { return std::set<int>(panels[i].look.begin(), panels[i].look.end()); };
+  CHECK((looks(0) == std::set<int>{8, 9}));
+  CHECK((looks(1) == std::set<int>{7}));
+  CHECK((looks(2) == std::set<int>{7, 8, 9}));
+  for (std::size_t t = 0; t < panels[2].triangles.size(); ++t)
+    for (const std::uint32_t v : panels[2].triangles[t]) {
+      const std::size_t band = panels[2].look[t] - 7U;
+      CHECK(panels[2].z[v] >= (band == 0 ? -0.1 * room.height : bands[band - 1]));
+      CHECK(panels[2].z[v] <= (band == 2 ? 1.1 * room.height : bands[band]));
+    }
 }
 
 TEST_CASE("curtains cover their mirrors", "[driver]") {

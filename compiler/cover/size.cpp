@@ -1,0 +1,32 @@
+// A copy is the room's circumscribed circle times its height; at distance d it is 2·asin(sinκ R / sinκ d) wide.
+#include "compiler/cover/size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace orbc::cover {
+
+using geometry::Space;
+
+CopySize::CopySize(const place::PlacedRoom& room, const place::Eye& eye)
+    : space_(room.room.space),
+      radius_(room.room.circumradius),
+      height_(room.height),
+      eye_z_(eye.z),
+      pixels_(place::pixels_per_radian(eye)),
+      eye_from_cover_(inverse(eye.room_from_eye)) {}
+
+double CopySize::at(double d) const {
+  if (d <= radius_ || space_ == Space::spherical) return std::numeric_limits<double>::infinity();
+  const double width = 2 * std::asin(std::min(1.0, geometry::sin_k(space_, radius_) / geometry::sin_k(space_, d)));
+  const double height = std::atan((height_ - eye_z_) / (d - radius_)) + std::atan(eye_z_ / (d - radius_));
+  return pixels_ * std::min(width, height);
+}
+
+double CopySize::of(const geometry::Isometry& cover_from_room) const {
+  const geometry::Ambient centre = eye_from_cover_ * cover_from_room * geometry::Point();
+  return at(geometry::arc_k(space_, centre.w, std::hypot(centre.x, centre.y)));
+}
+
+}  // namespace orbc::cover
