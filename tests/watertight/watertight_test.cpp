@@ -99,19 +99,27 @@ TEST_CASE("a missing triangle is a hole, and a vertex that has moved along its e
 
 TEST_CASE("no vertex lies within an edge that has no neighbour", "[watertight]") {
   std::mt19937 random(20263);
-  // Frames run into those of the neighbouring walls, with edges of their own.
-  for (const std::string& path : rooms(false)) {
+  for (const std::string& path : rooms(true)) {
     auto opened = test::open_or_fail(path);
     opened.scene.cover.max_bounces =
         std::min(opened.scene.cover.max_bounces, opened.room->room.space == geometry::Space::spherical ? 6 : 2);
     test::move_eye(opened, random, 320, 240);
-    const auto compiled = driver::compile(opened, {}, serial_executor());
-    REQUIRE(compiled);
-    const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover);
-    REQUIRE(copies);
-    REQUIRE(copies->size() == compiled->product.copies.size());
-    const test::Seams found = test::seams(compiled->product, *copies);
-    INFO(path << ": " << found.torn << " of " << found.edges << ": " << found.first);
-    CHECK(found.torn == 0);
+    // A frame is a surface of its own, which stands before its wall and shares no edge with it; its open back meets its mirror image. And bending
+    // treats part by part.
+    std::vector<std::vector<place::PlacedMesh>> surfaces(1);
+    for (const place::PlacedMesh& part : opened.room->parts)
+      if (part.kind == place::PartKind::frame) surfaces.push_back({part});
+      else surfaces.front().push_back(part);
+    for (const auto& surface : surfaces) {
+      opened.room->parts = surface;
+      const auto compiled = driver::compile(opened, {}, serial_executor());
+      REQUIRE(compiled);
+      const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover);
+      REQUIRE(copies);
+      REQUIRE(copies->size() == compiled->product.copies.size());
+      const test::Seams found = test::seams(compiled->product, *copies);
+      INFO(path << ", " << surface.front().name << ": " << found.torn << " of " << found.edges << ": " << found.first);
+      CHECK(found.torn == 0);
+    }
   }
 }
