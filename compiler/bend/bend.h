@@ -31,7 +31,7 @@ struct Model {
 
 struct BendOptions {
   View view = View::eye;
-  double tolerance_px = 0.25;       ///< largest distance of a bent chord from the true curve, in pixels of the eye's picture; > 0
+  double tolerance_px = 0.25;       ///< largest distance of a bent chord from the true curve, sideways or in depth, as the eye sees it: pixels of its picture; > 0
   double disk_tolerance = 1e-3;     ///< the same for View::disk, in chart length
   bool colours_vary = false;        ///< colours change inside triangles everywhere (baked light), not only where a part has a texture or a pattern
   double colour_tolerance = 4;      ///< how far such colours may shift within their surface, in units of the tolerance; > 0

@@ -1,5 +1,5 @@
 // An error counts as it is seen: a chord is wrong by the angle between the true point and the nearest seen point of the chord. Depth along
-// the line of sight is invisible but decides what hides what; it may be wrong by kDepth times as much. What lies outside of a perspective
+// the line of sight is invisible but decides what hides what, and where two surfaces meet: it may be wrong by as much and no more. What lies outside of a perspective
 // picture, by more than its own error, may be kOutside times coarser: it can never be drawn, but who turns the exported scene in a viewer
 // should still see a room.
 #include "compiler/bend/sight.h"
@@ -12,7 +12,6 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kDepth = 8;
 constexpr double kFrameMargin = 0.02;  // radians
 constexpr double kBetween = 1.03;      // the largest error may lie between the points looked at; measured up to 1.014
 
@@ -121,7 +120,7 @@ Judgement judge_chord(const Sight& sight, const Vector3& a, const Vector3& b, co
     const double far = std::max(length(p), 1e-9);
     const Vector3 d = (1 / far) * p;
     const double off = segment_distance(p, da, db) / far, seen = seen_from(d, da, db);
-    double here = seen < 0 ? off : std::max(seen, off / kDepth);
+    double here = seen < 0 ? off : std::max(seen, off);
     if (along > 0) here = std::max(here, across(d, p - (da + parameter[i] * (db - da))) / far / along);
     if (here > angle) angle = here, farthest = i;
     pixels = std::max(pixels, pixels_at(sight, d));
@@ -154,7 +153,7 @@ Judgement judge_centre(const Sight& sight, const std::array<Vector3, 3>& corners
       if (side >= 0) seen = std::min(seen, side);
     }
   }
-  double angle = std::max(seen, height / far / kDepth);
+  double angle = std::max(seen, height / far);
   if (along > 0) angle = std::max(angle, across(d, off) / far / along);
   const Vector3 points[4] = {e[0], e[1], e[2], p};
   return in_frame(sight, angle, pixels_at(sight, d), points, 4);
