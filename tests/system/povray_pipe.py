@@ -52,6 +52,8 @@ with folder() as where, folder() as temporary, folder() as away:
     nothing = piped(b'#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n', '-o', out + 'x')
     check(nothing.returncode == 1 and b'nothing to draw' in nothing.stderr, 'a scene without objects is an error: ' + nothing.stderr.decode().strip())
     check(not os.path.exists(out + 'x'), 'and leaves no picture')
+    mirrors = piped(b'// orbc: *222, 1 copies, 0 triangles\n#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\nbackground { rgb <0,1,0> }\n', '-o', out)
+    check(mirrors.returncode == 0 and (picture(out) == [0, 255, 0]).all(), 'a room of mirrors alone shows its background ' + mirrors.stderr.decode())
     wrong = piped(b'#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\nsphere { <0,0,0>, }\n', '-o', out)
     check(wrong.returncode == 1 and b"line 3: Parse Error: Expected 'numeric expression'" in wrong.stderr and wrong.stderr.count(b'\n') < 8, "a parse error shows povray's words:\n" + wrong.stderr.decode())
     cut = piped(scene[:-200], '-o', out)
