@@ -2,11 +2,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
+#include "compiler/base/diagnostic.h"
 #include "compiler/base/progress.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/manual.h"
@@ -135,6 +139,21 @@ void define_verify(CLI::App& app, VerifyArguments& a, Common& common) {
   add_common(*c, common);
 }
 
+/// A misspelt command, said as such: CLI11 would call it and all words after it "not expected".
+/// Makes: whether the first word was meant as a command and is none; then it has been told.
+bool told_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) commands.push_back(command->get_name());
+  if (std::find(commands.begin(), commands.end(), argv[1]) != commands.end()) return false;
+  const std::string nearest = nearest_word(argv[1], commands);
+  if (nearest.empty())
+    fmt::print(stderr, "orbc: there is no command `{}`; the commands are {}\n", argv[1], fmt::join(commands, ", "));
+  else
+    fmt::print(stderr, "orbc: there is no command `{}`; did you mean `{}`?\n", argv[1], nearest);
+  return true;
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("orbc compiles rooms with mirrors. It realises the room of an orbifold notation such as *22222 on the sphere, the plane or the\n"
                "hyperbolic plane, unfolds its mirrors, bends every copy for the eye and writes files that POV-Ray and Blender draw truly.",
@@ -166,6 +185,7 @@ int dispatch(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
+    if (told_unknown_command(app, argc, argv)) return kUsage;
     app.exit(error, std::cerr, std::cerr);
     return kUsage;
   }

@@ -167,6 +167,12 @@ std::optional<std::size_t> tab_in_indentation(std::string_view text, std::size_t
   return std::nullopt;
 }
 
+// Whether a quoted text ends before `offset`, in its line.
+bool follows_quote(std::string_view text, std::size_t offset) {
+  const std::size_t last = offset == 0 ? std::string_view::npos : text.find_last_not_of(' ', std::min(offset, text.size()) - 1);
+  return last != std::string_view::npos && (text[last] == '"' || text[last] == '\'');
+}
+
 // The bracket that is not closed is where the author must look, not the place where the parser gives up.
 Diagnostic unclosed(const YAML::ParserException& exception, const Locator& locator, const std::optional<SourceSpan>& opened) {
   const bool map = exception.msg == YAML::ErrorMsg::END_OF_MAP_FLOW;
@@ -182,6 +188,8 @@ Diagnostic translate(const YAML::ParserException& exception, const Locator& loca
   if (const auto tab = tab_in_indentation(locator.text(), offset))
     return make_error("scene.tab", "a tab stands in the indentation", "YAML indents with spaces: use two spaces for each level", locator.at(*tab));
   if (exception.msg == YAML::ErrorMsg::END_OF_MAP_FLOW || exception.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) return unclosed(exception, locator, opened);
+  if (exception.msg == YAML::ErrorMsg::END_OF_MAP && follows_quote(locator.text(), offset))
+    return make_error("scene.syntax", "text goes on behind the closing quote", "put the whole text into one pair of quotes", locator.at(offset));
   return make_error("scene.syntax", "this is not YAML: " + exception.msg, hint_for(exception.msg), locator.at(offset));
 }
 

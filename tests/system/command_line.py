@@ -45,6 +45,9 @@ with folder() as name:
         done = orbc(*words)
         check(done.returncode == 2 and done.stderr and not done.stdout, f'usage: {" ".join(str(w) for w in words[:3])}')
 
+    done = orbc('chek', OCTANT)
+    check(done.returncode == 2 and b'did you mean `check`' in done.stderr, 'a misspelt command is called by its name, with the nearest one')
+
     # what is known of an orbifold
     facts = json.loads(orbc('info', '*237', '--json', '--max-length', '37').stdout)
     check(facts['chi'] == '-1/84' and facts['space'] == 'hyperbolic' and facts['copies_per_length'][37] == 2818 and abs(facts['growth_rate'] - 1.17628081825991750) < 1e-15, 'info *237')
