@@ -144,10 +144,10 @@ Field statue() {
     d = blend(d, hand(p, arms.left.back().at, normalised(Vector3{0.8, 0.45, -0.12}), normalised(Vector3{0.45, -0.8, 0.1}), 0.12), 0.014);
     double shawl = 1e9;
     for (int strand = -1; strand <= 1; ++strand) {
-      // The strands lie above each other behind the back, and spread where they hang.
+      // The strands lie above each other behind the back, and side by side, a ribbon, where they hang.
       const double s = 0.034 * strand, hangs = smoothstep(1.1, 0.95, p.z) * smoothstep(0.3, 0.45, p.y);
       shawl = blend(shawl,
-                    limb(p - Vector3{(-0.6 - 1.6 * smoothstep(0.9, 0.55, p.z)) * s * hangs, 0.012 * std::abs(strand), 0.8 * s}, arms.scarf),
+                    limb(p - Vector3{(-0.55 - 0.3 * smoothstep(0.9, 0.55, p.z)) * s * hangs, 0.012 * std::abs(strand), 0.8 * s}, arms.scarf),
                     0.022);
     }
     d = blend(d, shawl * 0.9, 0.008);
