@@ -56,7 +56,7 @@ std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock
 
 /// The same for light, by number.
 light::DrawnParts parts_of(const Stock& stock, const Choice& choice) {
-  light::DrawnParts parts{{}, choice.model_of_copy};
+  light::DrawnParts parts{{}, choice.model_of_copy, stock.beside};
   for (const auto& levels : choice.models) {
     parts.models.emplace_back();
     for (std::size_t p = 0; p < levels.size(); ++p) parts.models.back().push_back(stock.part_of_level[p][levels[p]]);

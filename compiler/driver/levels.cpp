@@ -300,13 +300,13 @@ LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choi
 }
 
 Stock stock_of(const place::PlacedRoom& room, const Levels& levels, const Choice& choice) {
-  Stock stock{room, {}};
+  Stock stock{room, {}, std::vector<double>(room.parts.size(), 0.0)};
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
     stock.part_of_level.emplace_back(1, static_cast<std::uint32_t>(p));
     for (std::size_t l = 0; p < levels.size() && l < levels[p].size(); ++l) {
       const bool used = std::any_of(choice.models.begin(), choice.models.end(), [&](const auto& model) { return model[p] == l + 1; });
       stock.part_of_level[p].push_back(used ? static_cast<std::uint32_t>(stock.room.parts.size()) : static_cast<std::uint32_t>(p));
-      if (used) stock.room.parts.push_back(levels[p][l].mesh);
+      if (used) stock.room.parts.push_back(levels[p][l].mesh), stock.beside.push_back(levels[p][l].error);
     }
   }
   return stock;

@@ -51,6 +51,7 @@ struct LevelTally {
 struct Stock {
   place::PlacedRoom room;                                 ///< the parts of the room come first
   std::vector<std::vector<std::uint32_t>> part_of_level;  ///< [part][level]: index in `room.parts`
+  std::vector<double> beside;                             ///< per part of `room`: Level::error, 0 of the parts themselves
 };
 [[nodiscard]] Stock stock_of(const place::PlacedRoom& room, const Levels& levels, const Choice& choice);
 

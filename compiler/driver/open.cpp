@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "compiler/light/lamp.h"
+#include "compiler/light/shade.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/read.h"
@@ -13,19 +14,18 @@ namespace {
 
 constexpr std::size_t kLargestInput = 8 << 20;  // read_scene refuses less; this only keeps an endless pipe out of the memory
 
-Result<scene::Read> read(const std::string& path) {
-  if (path != "-") return scene::load_scene(path);
+Result<scene::Read> read(const std::string& path, const scene::Instead& instead) {
+  if (path != "-") return scene::load_scene(path, instead);
   auto source = std::make_shared<SourceText>();
   source->name = "<stdin>";
   for (std::istreambuf_iterator<char> at(std::cin), end; at != end && source->text.size() < kLargestInput; ++at) source->text += *at;
-  return scene::read_scene(std::shared_ptr<const SourceText>(source), ".");
+  return scene::read_scene(std::shared_ptr<const SourceText>(source), ".", instead);
 }
 
 void apply(const Overrides& overrides, scene::Scene& scene) {
   if (overrides.size) scene.camera.size = *overrides.size;
   if (overrides.max_bounces) scene.cover.max_bounces = *overrides.max_bounces;
   if (overrides.projection) scene.camera.projection = *overrides.projection;
-  if (overrides.integrator) scene.integrator = *overrides.integrator;
   if (overrides.quality) scene.bake.quality = *overrides.quality;
 }
 
@@ -34,9 +34,10 @@ void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from
 }  // namespace
 
 Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
-  auto read_in = read(path);
+  auto read_in = read(path, {overrides.integrator});
   if (!read_in) return read_in.error();
-  Opened opened{std::move(read_in->scene), nullptr, {}, std::move(read_in->notes)};
+  Opened opened;
+  opened.scene = std::move(read_in->scene), opened.notes = std::move(read_in->notes);
   apply(overrides, opened.scene);
   opened.expected_background = overrides.expected_background || opened.scene.cover.background_expected;
   const auto room = room::realise(opened.scene.orbifold, opened.scene.room.shape, opened.scene.allow_non_orbifold);
@@ -48,6 +49,9 @@ Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
   if (!lamps) return located(lamps.error(), opened.scene.span);
   append(opened.notes, located(lamps.value().warnings, opened.scene.span));
   if (auto inside = light::lamps_inside_objects(opened.scene, *lamps, furnished->room); !inside.empty()) return inside;
+  const light::LightOptions light = light::light_options(opened.scene);
+  if (const auto images = light::lamp_images(lamps->lamps, furnished->room, {light.bounces, opened.scene.exposure, light.cut}); !images)
+    return located(located(images.error(), opened.scene.bake.mirrors_span), opened.scene.span);
   light::add_fixtures(opened.scene, *lamps, furnished->room);
   opened.room = std::make_unique<place::PlacedRoom>(std::move(furnished->room));
   const auto eye = place::make_eye(opened.scene, *opened.room);

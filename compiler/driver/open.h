@@ -21,6 +21,8 @@ struct Overrides {
   bool expected_background = false;
 };
 
+struct Prepared;
+
 /// A scene that has been read, realised, furnished and looked at: where both roads begin.
 struct Opened {
   scene::Scene scene;
@@ -28,6 +30,7 @@ struct Opened {
   place::Eye eye;
   Diagnostics notes;
   bool expected_background = false;         ///< where paths are cut off one sees what is expected beyond (tail.h), times their weight, not `cover.background`
+  mutable std::shared_ptr<const Prepared> prepared;   ///< filled when it is first asked for (prepared.h); opened scenes of another room start without
 };
 
 /// read → realise → furnish → eye. In: a path, or "-" for standard input.

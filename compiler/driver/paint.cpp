@@ -1,15 +1,23 @@
 #include "compiler/driver/paint.h"
 
+#include "compiler/driver/prepared.h"
 #include "compiler/driver/see_in.h"
 
 namespace orbc::driver {
 namespace {
 
 /// Of a scene without lamps.
-Result<light::LightField> dark() {
+light::LightField dark(const scene::Scene& scene) {
   light::LightField field;
   field.ambient = {1, 1, 1};
+  field.exposure = scene.exposure;
   return field;
+}
+
+// Plain colours are what lit ones are without light: seen at the scene's exposure, and times its emission where something glows.
+place::PlacedRoom exposed(place::PlacedRoom room, double exposure) {
+  for (place::Look& look : room.looks) look.color = (exposure * (look.material.kind == scene::MaterialKind::emissive ? look.material.emission : 1)) * look.color;
+  return room;
 }
 
 }  // namespace
@@ -19,24 +27,24 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
                       const Executor& executor, const Progress& progress) {
   Painted painted;
   if (!light::needs_bake(opened.scene, *opened.room)) {
-    auto atlas = light::make_atlas(room, {options.max_side});
+    auto atlas = light::make_atlas(exposed(room, opened.scene.exposure), {options.max_side});
     if (!atlas) return atlas.error();
     painted.atlas = std::move(*atlas);
     return painted;
   }
   painted.baked = true;
-  const auto field = options.lit ? light::prepare_light(opened.scene, *opened.room, light::baked_light_options(opened.scene), executor) : dark();
-  if (!field) return field.error();
+  light::LightField field = options.lit ? prepared(opened, executor).light : dark(opened.scene);
+  field.options = light::baked_light_options(opened.scene);
   light::BakeOptions bake = baking;
   bake.max_side = options.max_side;
-  if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01;
-  auto baked = light::bake(room, *field, bake, executor, progress);
+  if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, field.options.passes = 0;
+  auto baked = light::bake(room, field, bake, executor, progress);
   if (!baked) return baked.error();
-  if (options.highlights && options.lit && light::needs_highlights(*opened.room, *field)) {
+  if (options.highlights && options.lit && light::needs_highlights(*opened.room, field)) {
     light::HighlightOptions shine;
     shine.max_side = options.max_side;
-    if (light::has_mirror_or_glass(*opened.room)) shine.seen_in = see_in(opened, executor);
-    painted.highlights = light::bake_highlights(room, *field, copies, drawn, opened.eye, shine, *baked, executor, progress);
+    if (light::has_mirror_or_glass(*opened.room)) shine.seen_in = see_in(opened, &*baked, executor);
+    painted.highlights = light::bake_highlights(room, field, copies, drawn, opened.eye, shine, *baked, executor, progress);
   }
   painted.atlas = std::move(baked->atlas);
   return painted;

@@ -7,8 +7,9 @@ namespace orbc::driver {
 
 /// What the tracer sees in mirror and glass objects, asked point by point: so exports show them truly to their eye, though their renderer's
 /// rays are straight.
-/// In:    an opened scene that outlives the answer.
-/// Error: that of the tracer; of coarser levels of an object the points are those of the object itself nearest in sight.
-[[nodiscard]] light::SeenIn see_in(const Opened& opened, const Executor& executor);
+/// In:    an opened scene, and what was baked of it, which outlive the answer. Without the latter all that is seen is lit point by point,
+///        with `integrator: path` by one guess each.
+/// Error: that of the tracer, and of the texels of what was baked.
+[[nodiscard]] light::SeenIn see_in(const Opened& opened, const light::Baked* baked, const Executor& executor);
 
 }  // namespace orbc::driver

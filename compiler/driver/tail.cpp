@@ -11,6 +11,7 @@
 
 #include "compiler/bend/detail.h"
 #include "compiler/cover/size.h"
+#include "compiler/driver/prepared.h"
 #include "compiler/light/shade.h"
 #include "compiler/notation/growth.h"
 #include "compiler/render/shade.h"
@@ -105,16 +106,15 @@ namespace {
 class Looker {
  public:
   Looker(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor)
-      : opened_(opened), options_(options), executor_(executor), scene_(orbc::trace::prepare(room, executor)), missing_(room, options) {
+      : opened_(opened), options_(options), executor_(executor), scene_(&room == opened.room.get() ? prepared(opened, executor).scene : orbc::trace::prepare(room, executor)), missing_(room, options) {
     const scene::CoverSpec& spec = opened.scene.cover;
     if (options.color || options.left_out) {
-      light::LightOptions direct = light::light_options(opened.scene);
-      direct.passes = 0;
-      light_ = light::prepare_light(opened.scene, room, direct, executor).value();
+      light_ = prepared(opened, executor).light;   // in: the opened room
+      light_.options.passes = 0;
     }
     shown_.max_bounces = spec.max_bounces, shown_.min_weight = spec.min_weight;
     shown_.light = light_.lit ? &light_ : nullptr;
-    shown_.background = light_.lit && light_.exposure > 0 ? (1 / light_.exposure) * spec.background : spec.background;
+    shown_.background = opened.scene.exposure > 0 ? (1 / opened.scene.exposure) * spec.background : spec.background;
     deep_ = shown_;
     deep_.background = {};
     deep_.max_bounces = spec.max_bounces + kDeeper, deep_.min_weight = kNothing;
@@ -146,7 +146,7 @@ class Looker {
     // Too few to be met: they show what the others show.
     if (all.empty())
       for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray& ray, Row& row) { everything(ray, row); })) all.add(row.depth);
-    const double exposure = light_.lit ? light_.exposure : 1;
+    const double exposure = opened_.scene.exposure;
     for (const Sum& band : bands) {
       const scene::Color color = band.empty() ? all.color() : band.color();
       if (!expected && 2 * band.cut_off > band.paths && exposure * largest(color) > 1) beyond.by_height.push_back(std::nullopt);

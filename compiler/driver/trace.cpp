@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compiler/driver/prepared.h"
 #include "compiler/driver/tail.h"
 #include "compiler/light/bake.h"
 #include "compiler/render/draw.h"
@@ -16,19 +17,17 @@ render::DrawOptions draw_options(const Opened& opened, const light::LightField& 
   draw.min_weight = opened.scene.cover.min_weight;
   draw.background = opened.scene.cover.background;
   // The film is exposed as a whole; the background is shown as it is.
-  if (light.lit && light.exposure > 0) draw.background = (1 / light.exposure) * draw.background;
+  if (light.exposure > 0) draw.background = (1 / light.exposure) * draw.background, draw.white = 1 / light.exposure;
   if (opened.expected_background) draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color, draw.weighs_background = true;
   return draw;
 }
 
 render::Film trace(const Opened& opened, const TraceOptions& options, const Executor& executor, const Progress& progress) {
   report(progress, "preparing", 0, 0);
-  const orbc::trace::TraceScene scene = orbc::trace::prepare(*opened.room, executor);
-  // The lamps have been hung once already, when the scene was opened: they hang.
-  const light::LightField light = light::prepare_light(opened.scene, *opened.room, light::light_options(opened.scene), executor).value();
-  render::DrawOptions draw = draw_options(opened, light, executor);
+  const Prepared& ready = prepared(opened, executor);
+  render::DrawOptions draw = draw_options(opened, ready.light, executor);
   draw.samples = options.samples;
-  return render::draw(scene, opened.eye, draw, executor, progress);
+  return render::draw(ready.scene, opened.eye, draw, executor, progress);
 }
 
 }  // namespace orbc::driver

@@ -28,7 +28,7 @@ void set_solid(const place::PlacedRoom& room, const place::PlacedMesh& part, con
 /// The same at affine barycentric coordinates of a triangle, its textures' uv in [0, 1]².
 [[nodiscard]] scene::Color triangle_albedo(const place::PlacedRoom& room, const place::PlacedMesh& part, std::size_t triangle, const std::array<double, 3>& b);
 
-/// Whether the colour changes inside triangles of this look, on a part with or without pattern positions; and over which length it does.
+/// Whether the colour changes inside triangles of this look: by a texture, or, on a part where they mean something, by a solid pattern.
 [[nodiscard]] bool varies(const place::PlacedRoom& room, int look, bool solid);
 
 /// The solid patterns by themselves: how much of the second colour stands at a point, 0…1; `cell` is their size.

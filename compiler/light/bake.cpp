@@ -15,6 +15,7 @@
 #include "compiler/light/blocks.h"
 #include "compiler/light/light_grid.h"
 #include "compiler/light/passing.h"
+#include "compiler/light/random.h"
 #include "compiler/light/way.h"
 
 namespace orbc::light {
@@ -26,7 +27,11 @@ using Texel = std::array<std::uint8_t, 4>;
 
 constexpr double kContrast = 5;     // steps of 1/255 between neighbouring points that ask for a point between them
 constexpr int kMaxLevel = 11;       // of a block: 2049 texels a side
-constexpr double kGrains = 8;       // texels per cell of a solid pattern
+constexpr double kGrains = 8;       // texels per cell of a solid pattern, at least
+constexpr double kFinestPattern = 3;  // times BakeOptions::texture_fine: no solid pattern gets more texels
+constexpr double kPatternError = 2;   // times BakeOptions::tolerance: by so much texels of a pattern may be off
+constexpr int kFew = 25;              // at one of so many places
+constexpr int kPlaces = 64;           // looked at on a block
 
 // Halvings that make so many cells; a half of one is rounded off, since meshes finer than asked for gain nothing.
 int level_of(double cells) { return std::clamp(static_cast<int>(std::lround(std::log2(std::max(1.0, cells)))), 0, kMaxLevel); }
@@ -39,6 +44,7 @@ struct Part {
   const PartNormals& normals;
   bool stand_in = false;            ///< a coarser level of another part: light is that of the part itself
   std::vector<Color> at_vertex;     ///< irradiance at normals.vertices
+  std::vector<std::uint8_t> blind_vertex;
 };
 
 /// A block on its way: irradiance on a grid, every point of it known in the end.
@@ -46,6 +52,7 @@ struct Grid {
   int w = 1, h = 1;                 ///< points
   std::vector<Color> light;
   std::vector<std::uint8_t> rough;  ///< a mean of its neighbours would have missed it, or one of them
+  std::vector<std::uint8_t> blind;  ///< covered by a closed thing: nobody sees it, its neighbours' light goes on there
   std::uint64_t asked = 0;
 };
 
@@ -71,6 +78,7 @@ class BlockBaker {
     grid_.w = (1 << a) + 1, grid_.h = (1 << b) + 1;
     grid_.light.resize(static_cast<std::size_t>(grid_.w) * grid_.h);
     grid_.rough.assign(grid_.light.size(), 0);
+    grid_.blind.assign(grid_.light.size(), 0);
     int su = 1 << (a - a0), sv = 1 << (b - b0);
     for (int j = 0; j < grid_.h; j += sv)
       for (int i = 0; i < grid_.w; i += su)
@@ -81,6 +89,7 @@ class BlockBaker {
       if (refine(su, sv, nu, nv)) used_u = nu, used_v = nv;
       su = nu, sv = nv;
     }
+    go_on_where_blind(used_u, used_v);
     return thinned(used_u, used_v);
   }
 
@@ -125,10 +134,41 @@ class BlockBaker {
     return in_triangle(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1));
   }
 
+  // Texels per unit of length for what varies on the surface: of solid patterns as many as they ask for, since granite hides detail that
+  // marble of the same cell does not have.
   double pattern_density() const {
     const place::Look& look = part_.room.looks[part_.mesh.look[block_.first]];
-    if (look.texture < 0) return std::clamp(kGrains / std::max(material_->cell, 1e-6) * 4, part_.options.fine, part_.options.texture_fine);
-    return part_.options.texture_fine;
+    const BakeOptions& options = part_.options;
+    if (look.texture >= 0) return options.texture_fine;
+    double density = std::clamp(kGrains / std::max(material_->cell, 1e-6), options.fine, options.texture_fine);
+    while (density < kFinestPattern * options.texture_fine && blurs(density)) density *= 2;
+    return density;
+  }
+
+  // Whether texels at that density, looked up in between, would show the pattern wrongly at more than a few of some places.
+  bool blurs(double density) const {
+    const int cells_u = 1 << level_of(block_.length_u * density), cells_v = 1 << level_of(block_.length_v * density);
+    if (cells_u >= 1 << kMaxLevel && cells_v >= 1 << kMaxLevel) return false;
+    const int places = std::min(kPlaces, 2 * cells_u * cells_v);
+    int wrong = 0;
+    for (int k = 0; k < places; ++k) {
+      const auto at = lattice(k);
+      double u = at[0], v = at[1];
+      if (block_.second < 0 && u + v > 1) u = 1 - u, v = 1 - v;
+      const double i = std::min(std::floor(u * cells_u), cells_u - 1.0), j = std::min(std::floor(v * cells_v), cells_v - 1.0);
+      const double s = u * cells_u - i, t = v * cells_v - j;
+      const auto texel = [&](double x, double y) {
+        x /= cells_u, y /= cells_v;
+        if (block_.second < 0 && x + y > 1) x = 1 - y;   // beyond the long side of a single triangle: as good as on it
+        return albedo(x, y);
+      };
+      const Color between = (1 - t) * ((1 - s) * texel(i, j) + s * texel(i + 1, j)) + t * ((1 - s) * texel(i, j + 1) + s * texel(i + 1, j + 1));
+      const Color truth = albedo(u, v);
+      const auto code = [](double c) { return 255 * scene::encode_srgb(std::clamp(c, 0.0, 1.0)); };
+      wrong += std::max({std::fabs(code(between.r) - code(truth.r)), std::fabs(code(between.g) - code(truth.g)), std::fabs(code(between.b) - code(truth.b))}) >
+               kPatternError * part_.options.tolerance;
+    }
+    return wrong * kFew > places;
   }
 
   void ask(int i, int j) {
@@ -140,6 +180,7 @@ class BlockBaker {
       const std::size_t t = far_u && far_v ? static_cast<std::size_t>(block_.second) : block_.first;
       const int k = far_u && far_v ? block_.second_turn[0] : block_.turn[far_u ? 1 : far_v ? 2 : 0];
       light = part_.at_vertex[part_.normals.corners[t][k]];
+      grid_.blind[index(i, j)] = part_.blind_vertex[part_.normals.corners[t][k]];
       return;
     }
     ++grid_.asked;
@@ -148,6 +189,7 @@ class BlockBaker {
     LightPoint point = light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b);
     if (part_.stand_in) point = on_surface(part_.field, point, std::max(block_.length_u, block_.length_v) / 2);
     light = irradiance(part_.field, point, near_);
+    grid_.blind[index(i, j)] = light == Color{} && covered(part_.field, point);
   }
 
   std::vector<std::uint32_t> images_near_block() const {
@@ -192,22 +234,57 @@ class BlockBaker {
   }
 
   bool fill(int i, int j, const std::array<std::size_t, 4>& parents, int count, std::vector<std::uint8_t>& rough) {
-    Color mean;
+    Color sum;
+    int seen = 0;
     bool needed = false;
     for (int k = 0; k < count; ++k) {
-      mean = mean + (1.0 / count) * grid_.light[parents[k]];
       needed = needed || grid_.rough[parents[k]];
+      if (!grid_.blind[parents[k]]) sum = sum + grid_.light[parents[k]], ++seen;
     }
+    needed = needed || (seen > 0 && seen < count);
     for (int k = 0; k + 1 < count + (count & 1) && !needed; k += 2)
       needed = difference(grid_.light[parents[k]], grid_.light[parents[k + 1]]) > kContrast;
-    Color& light = grid_.light[index(i, j)];
-    light = mean;
+    const std::size_t at = index(i, j);
+    const Color mean = seen > 0 ? (1.0 / seen) * sum : Color{};
+    grid_.light[at] = mean;
+    grid_.blind[at] = seen == 0;
     if (!needed) return false;
     ask(i, j);
-    if (difference(light, mean) <= part_.options.tolerance) return true;
-    rough[index(i, j)] = 1;
+    if (grid_.blind[at] || difference(grid_.light[at], mean) <= part_.options.tolerance) return true;
+    rough[at] = 1;
     for (int k = 0; k < count; ++k) rough[parents[k]] = 1;
     return true;
+  }
+
+  // Covered points take on what their neighbours have, ring by ring: what is interpolated up to the line where a thing stands on the floor
+  // is then light of the floor in front of it, not the dark below it.
+  void go_on_where_blind(int step_u, int step_v) {
+    std::vector<std::array<int, 2>> blind, rest;
+    bool any = false;
+    for (int j = 0; j < grid_.h; j += step_v)
+      for (int i = 0; i < grid_.w; i += step_u) {
+        if (!valid(i, j)) continue;
+        if (grid_.blind[index(i, j)]) blind.push_back({i, j});
+        else any = true;
+      }
+    while (any && !blind.empty()) {
+      std::vector<std::pair<std::size_t, Color>> found;
+      rest.clear();
+      for (const auto& [i, j] : blind) {
+        Color sum;
+        int count = 0;
+        const auto look = [&](int x, int y) {
+          if (x < 0 || y < 0 || x >= grid_.w || y >= grid_.h || !valid(x, y) || grid_.blind[index(x, y)]) return;
+          sum = sum + grid_.light[index(x, y)], ++count;
+        };
+        look(i - step_u, j), look(i + step_u, j), look(i, j - step_v), look(i, j + step_v);
+        if (count > 0) found.push_back({index(i, j), (1.0 / count) * sum});
+        else rest.push_back({i, j});
+      }
+      for (const auto& [at, light] : found) grid_.light[at] = light, grid_.blind[at] = 0;
+      any = !found.empty();
+      std::swap(blind, rest);
+    }
   }
 
   Color albedo(double u, double v) const {
@@ -253,7 +330,13 @@ class BlockBaker {
 
 void light_vertices(Part& part, const Executor& executor, const Progress& progress) {
   constexpr std::size_t kChunk = 32;
+  // What glows is not lit.
+  std::vector<std::uint8_t> lit(part.normals.vertices.size(), 0);
+  for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t)
+    if (part.room.looks[part.mesh.look[t]].material.kind != scene::MaterialKind::emissive)
+      for (const std::uint32_t corner : part.normals.corners[t]) lit[corner] = 1;
   part.at_vertex.resize(part.normals.vertices.size());
+  part.blind_vertex.assign(part.normals.vertices.size(), 0);
   std::atomic<std::uint64_t> done{0};
   executor((part.at_vertex.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t end = std::min((chunk + 1) * kChunk, part.at_vertex.size());
@@ -268,8 +351,12 @@ void light_vertices(Part& part, const Executor& executor, const Progress& progre
       radius = std::max(radius, std::hypot(geometry::distance(part.room.room.space, centre.floor, p.floor), p.z - centre.z));
     }
     const std::vector<std::uint32_t> near = images_near(part.field, centre, radius);
-    for (std::size_t i = chunk * kChunk; i < end; ++i)
-      part.at_vertex[i] = irradiance(part.field, light_point(part.room, part.mesh, part.normals.vertices[i]), near);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+      if (!lit[i]) continue;
+      const LightPoint point = light_point(part.room, part.mesh, part.normals.vertices[i]);
+      part.at_vertex[i] = irradiance(part.field, point, near);
+      part.blind_vertex[i] = part.at_vertex[i] == Color{} && covered(part.field, point);
+    }
     if (chunk % 16 == 0) report(progress, "baking", done.fetch_add(16 * kChunk), part.at_vertex.size(), "points");
   });
 }
@@ -365,7 +452,7 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
     if (p >= field.normals.size()) own[p] = part_normals(room, room.parts[p]);
     normals.push_back(p < field.normals.size() ? &field.normals[p] : &own[p]);
-    Part& part = parts.emplace_back(Part{room, field, options, room.parts[p], *normals[p], field.lit && p >= field.normals.size(), {}});
+    Part& part = parts.emplace_back(Part{room, field, options, room.parts[p], *normals[p], field.lit && p >= field.normals.size(), {}, {}});
     light_vertices(part, executor, progress);
     blocks.push_back(blocks_of(room, static_cast<std::uint32_t>(p), part.normals));
     first.push_back(lamps.size());

@@ -91,8 +91,10 @@ Guide guide_at(const LightField& field, const LightPoint& point) {
   guide.across = across(guide.normal);
   guide.other = cross(guide.normal, guide.across);
   std::vector<Guide::Lobe> lobes;
-  for (const LampImage& image : field.images)
+  for (const std::uint32_t i : images_at(field, point.at)) {
+    const LampImage& image = field.images[i];
     for (const Foot& foot : image.feet) add_lobe(field, image, foot, point, lobes, guide);
+  }
   if (lobes.empty()) return guide;
   std::stable_sort(lobes.begin(), lobes.end(), [](const Guide::Lobe& a, const Guide::Lobe& b) { return a.share > b.share; });
   guide.count = std::min<int>(static_cast<int>(lobes.size()), Guide::kMost);

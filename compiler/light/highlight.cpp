@@ -109,7 +109,7 @@ Color highlight(const LightField& field, const LightPoint& point, const Directio
   const Lobe lobe{space, point, to_eye, alpha * alpha, f0, trace::inner(space, point.normal, to_eye)};
   if (lobe.nv <= 0) return {};
   Color sum;
-  for (const LampImage& image : field.images) sum = sum + gathered(field, image, lobe);
+  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + gathered(field, field.images[i], lobe);
   return metal ? albedo * sum : sum;
 }
 

@@ -73,7 +73,7 @@ struct Job {
   const cover::Copy& copy;
   EyeImage eye;
   Color weight;  ///< of the copy: what is faint needs no detail
-  double per_radian;
+  double per_radian, beside;
 };
 
 /// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure; none of what is all mirror or glass.
@@ -125,7 +125,6 @@ class PartShine {
     }
     return done;
   }
-  std::uint64_t asked = 0;
 
  private:
   struct Grid {
@@ -138,10 +137,9 @@ class PartShine {
   };
 
   Color shine(const LightPoint& point, const Color& albedo, const scene::Material& material) {
-    ++asked;
     const Way sight = way_to(job_.eye, point.at);
     if (!sight.exists) return {};
-    if (whole_) return job_.options.seen_in(point.at, sight.start, job_.copy);
+    if (whole_) return job_.options.seen_in(point.at, sight.start, job_.copy, job_.beside);
     return job_.field.exposure * highlight(job_.field, point, sight.start, material, albedo);
   }
   /// Of a colour in the copy's weight, as the picture encodes it.
@@ -381,7 +379,6 @@ std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightFie
 struct Shining {
   std::size_t copy = 0, part = 0;
   std::vector<Finished> blocks;
-  std::uint64_t asked = 0;
 };
 
 std::vector<std::size_t> nearest_first(const std::vector<cover::Copy>& copies, const place::Eye& eye) {
@@ -454,19 +451,17 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
       if (!part.in_model.empty() && !part.in_model[drawn.model_of_copy[shining.copy]]) return;
       const cover::Copy& copy = copies[shining.copy];
       const PartNormals& normals = part.part < field.normals.size() ? field.normals[part.part] : part.own;
-      const Job job{room, field, options, baked, normals, shining.part, copy, image_of(copy, eye), copy.weight, per_radian};
+      const Job job{room, field, options, baked, normals, shining.part, copy, image_of(copy, eye), copy.weight, per_radian,
+                    shining.part < drawn.beside.size() ? drawn.beside[shining.part] : 0};
       const Ball& ball = part.ball;
       const Way sight = way_to(job.eye, ball.centre);
       const bool near = sight.length < 2 * ball.radius;
       if (!near && sight.exists && 2 * ball.radius * pixels_per_unit(job.eye, sight, per_radian) < kSmallestPart) return;
       PartShine shine(job);
       shining.blocks = shine.run();
-      shining.asked = shine.asked;
     });
     for (Shining& shining : batch) {
-      result.counts.points += shining.asked;
       if (shining.blocks.empty()) continue;
-      result.counts.blocks += shining.blocks.size();
       for (const Finished& f : shining.blocks) result.counts.texels += f.shown.size();
       all.push_back(std::move(shining));
     }

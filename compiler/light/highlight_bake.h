@@ -10,8 +10,9 @@
 namespace orbc::light {
 
 /// What the eye sees in a mirror or glass object: at a point of the room near its surface, in a copy; `to_eye` is the unit direction there in
-/// which the eye lies. Makes: colour × exposure as the copy's texture shows it, so without the copy's weight. Thread-safe.
-using SeenIn = std::function<scene::Color(const geometry::Position& at, const trace::Direction& to_eye, const cover::Copy& copy)>;
+/// which the eye lies; `beside`: how far the point may lie beside that surface (coarser levels).
+/// Makes: colour × exposure as the copy's texture shows it, so without the copy's weight. Thread-safe.
+using SeenIn = std::function<scene::Color(const geometry::Position& at, const trace::Direction& to_eye, const cover::Copy& copy, double beside)>;
 
 struct HighlightOptions {
   SeenIn seen_in;                         ///< none: mirror and glass objects keep their plain colours
@@ -26,6 +27,7 @@ struct HighlightOptions {
 struct DrawnParts {
   std::vector<std::vector<std::uint32_t>> models;
   std::vector<std::uint32_t> model_of_copy;
+  std::vector<double> beside;             ///< per part of the baked room, how far it lies beside the surface that it stands for; missing: 0
 };
 
 /// Places in the atlas of a part of one copy, in place of those that all copies share.
@@ -35,7 +37,7 @@ struct OwnUv {
 };
 
 struct HighlightCounts {
-  std::uint64_t points = 0, texels = 0, blocks = 0;
+  std::uint64_t texels = 0;
   std::size_t copies = 0;    ///< with highlights of their own
   std::size_t left_out = 0;  ///< copies beyond max_texels: they show their highlights nowhere
 };
@@ -48,12 +50,12 @@ struct Highlights {
 /// Whether a room has surfaces whose light depends on where the eye is: mirror and glass, and in a field with lamps glossy ones and metals.
 [[nodiscard]] bool needs_highlights(const place::PlacedRoom& room, const LightField& field);
 
-/// Bakes what glossy and metal surfaces send to the given eye, and what it sees in mirror and glass objects, for every copy by itself: as seen from a copy, the eye is its image under
-/// that copy's inverse map. In:    the room and the field that `baked` was made of; copies of the room, and what they are drawn from.
+/// Bakes what glossy and metal surfaces send to the given eye, and what it sees in mirror and glass objects, for every copy by itself: as
+/// seen from a copy, the eye is its image under that copy's inverse map.
+/// In:    the room and the field that `baked` was made of; copies of the room, and what they are drawn from.
 /// Makes: more rows below the picture of `baked`, in which blocks with a highlight have texels of their own for a copy: as coarse as the
-/// copy
-///        is far away; all others, and far copies, keep the diffuse ones. Places in the shared atlas are moved to the new size. Same bytes
-///        for any executor.
+///        copy is far away; all others, and far copies, keep the diffuse ones. Places in the shared atlas are moved to the new size. Same
+///        bytes for any executor.
 /// Error: colours add up in the 8 bits of the atlas; `tolerance` besides.
 [[nodiscard]] Highlights bake_highlights(const place::PlacedRoom& room, const LightField& field, const std::vector<cover::Copy>& copies,
                                          const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked,

@@ -4,7 +4,7 @@
 
 namespace orbc::light {
 
-/// The colour of a surface point without any light: flat, checker cell, or texel (nearest) times colour.
+/// The colour of a surface point without any light: surface_albedo where a ray has ended.
 [[nodiscard]] scene::Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point);
 
 /// The direction of the ray that a mirror object sends back from a point of it.

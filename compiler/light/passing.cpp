@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/light/frame.h"
 #include "compiler/light/guide.h"
 #include "compiler/light/leg.h"
 #include "compiler/light/surface_map.h"
@@ -16,6 +17,9 @@ namespace {
 using scene::Color;
 
 constexpr int kLinked = 4;          // of so many directions one carries on what has been passed on: that is smoother than what lamps give
+constexpr std::size_t kMostLinks = std::size_t{1} << 24;   // 400 MB: where they would be more, fewer directions carry on
+constexpr double kInside = 0.25;    // of a cell, or of the way to the neighbours: how far inside of a surface its outermost vertices are asked
+constexpr int kStream = 512;        // rays followed at once
 constexpr int kMostPoints = 129;    // along a side of a block
 constexpr double kSettled = 2e-4;   // of white: change at which the iteration ends
 
@@ -41,9 +45,11 @@ class Net {
     for (std::size_t p = 0; p < s_.room.parts.size(); ++p) {
       const PartNormals& normals = *s_.normals[p];
       const std::size_t vertices = nodes_.size();
-      for (const ShadingVertex& v : normals.vertices) nodes_.push_back({light_point(s_.room, s_.room.parts[p], v), {}, {}, false, 0, 0});
+      add_vertices(s_.room.parts[p], normals);
       for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices, p >= s_.field.normals.size());
     }
+    const std::size_t directions = nodes_.size() * static_cast<std::size_t>(options_.samples);
+    linked_ = static_cast<int>(std::clamp((directions + kMostLinks - 1) / kMostLinks, std::size_t{kLinked}, static_cast<std::size_t>(std::max(kLinked, options_.samples))));
   }
 
   void gather(const Executor& executor, const Progress& progress) {
@@ -57,6 +63,7 @@ class Net {
     });
     for (std::size_t c = 0; c < chunks; ++c) {
       for (std::size_t i = c * kChunk; i < std::min(nodes_.size(), (c + 1) * kChunk); ++i) nodes_[i].first += links_.size();
+      if (links_.empty()) links_.reserve(std::min(kMostLinks + nodes_.size(), nodes_.size() * static_cast<std::size_t>(options_.samples / linked_ + 1)));
       links_.insert(links_.end(), links[c].begin(), links[c].end());
       std::vector<Link>().swap(links[c]);
     }
@@ -112,6 +119,39 @@ class Net {
     std::vector<std::int32_t> node;
   };
 
+  // Vertices of objects are asked a little inside of the smooth surface that they belong to: at a foot on the floor all that lies below is
+  // one point, and just there shadows begin. In the middle of a surface that is the vertex itself.
+  void add_vertices(const place::PlacedMesh& part, const PartNormals& normals) {
+    const geometry::Space space = s_.room.room.space;
+    const bool flat = part.kind != place::PartKind::object && part.kind != place::PartKind::frame;
+    struct Around {
+      geometry::Ambient floor{0, 0, 0};
+      double z = 0;
+      int count = 0;
+    };
+    std::vector<Around> around(normals.vertices.size());
+    for (std::size_t t = 0; !flat && t < part.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t other = 0; other < 3; ++other) {
+          if (other == k) continue;
+          Around& a = around[normals.corners[t][k]];
+          a.floor = a.floor + part.floor[part.triangles[t][other]], a.z += part.z[part.triangles[t][other]], ++a.count;
+        }
+    for (std::size_t v = 0; v < normals.vertices.size(); ++v) {
+      LightPoint point = light_point(s_.room, part, normals.vertices[v]);
+      if (around[v].count > 0) {
+        const Frame frame = frame_at(space, point.at.floor);
+        const double share = 1.0 / around[v].count;
+        const geometry::Vector3 n = local(space, frame, point.normal);
+        const geometry::Vector3 to = local(space, frame, {share * around[v].floor - point.at.floor, share * around[v].z - point.at.z});
+        const geometry::Vector3 along = to - dot(to, n) * n;
+        const double length = geometry::length(along), step = std::min(kInside * length, kInside / options_.density);
+        if (length > 1e-9) point.at = point.origin = exponential(space, point.at, frame, (step / length) * along);
+      }
+      nodes_.push_back({point, {}, {}, false, 0, 0});
+    }
+  }
+
   void add_block(const place::PlacedMesh& part, const PartNormals& normals, const Block& block, std::size_t vertices, bool stand_in) {
     Mesh mesh;
     mesh.w = points_on(block.length_u, options_.density), mesh.h = points_on(block.length_v, options_.density);
@@ -138,39 +178,48 @@ class Net {
 
   // Sends a node's directions out; its links start at node.first of `links`.
   void ask(Node& node, std::size_t id, std::vector<Link>& links) const {
+    const Guide guide = guide_at(s_.field, node.at);
+    node.first = links.size();
+    Random random(id);
+    Asked asked;
+    for (int k = 0; k < options_.samples; k += kStream) ask_some(guide, k, std::min(k + kStream, options_.samples), random, node, links, asked);
+    node.count = links.size() - node.first;
+    node.blind = 2 * asked.inside > asked.all;
+  }
+
+  struct Asked {
+    int all = 0, inside = 0;        ///< directions; those that end on the inside of things
+  };
+
+  void ask_some(const Guide& guide, int from, int to, Random& random, Node& node, std::vector<Link>& links, Asked& asked) const {
     const LightField& field = s_.field;
-    const Guide guide = guide_at(field, node.at);
     std::vector<trace::Ray> rays;
     std::vector<double> weights;
     std::vector<bool> linked;
-    for (int k = 0; k < options_.samples; ++k) {
+    for (int k = from; k < to; ++k) {
       const Chosen chosen = choose(guide, lattice(k));
       if (chosen.weight <= 0) continue;
       rays.push_back(leaving(field, node.at, chosen.direction));
       weights.push_back(chosen.weight / options_.samples);
-      linked.push_back(k % kLinked == 0);
+      linked.push_back(k % linked_ == 0);
     }
-    node.first = links.size();
-    Random random(id);
     std::vector<trace::Path> paths = trace::follow(field.scene, rays, Leg{s_.room, field, random, {}, {}, {}, {}}.follow_options());
-    int inside = 0;
-    const double carry = static_cast<double>(options_.samples) / ((options_.samples + kLinked - 1) / kLinked);
+    asked.all += static_cast<int>(paths.size());
+    const double carry = static_cast<double>(options_.samples) / ((options_.samples + linked_ - 1) / linked_);
     for (std::size_t k = 0; k < paths.size(); ++k) {
       Leg leg{s_.room, field, random, {}, {weights[k], weights[k], weights[k]}, {}, {}};
       const bool ends = leg.arrive(std::move(paths[k]));
       node.given = node.given + leg.sum;
-      inside += ends && !leg.point.outside;
+      asked.inside += ends && !leg.point.outside;
       if (!ends) continue;
-      const OnBlock to = map_.find(leg.point, leg.hit);
+      const OnBlock place = map_.find(leg.point, leg.hit);
       const Color weight = leg.weight * surface_color(s_.room, leg.point);
       Color shown = field.ambient;
-      if (to.block >= 0) shown = shown + (1 / std::numbers::pi) * light_at(s_.direct[static_cast<std::size_t>(to.block)], to.u, to.v);
+      if (place.block >= 0) shown = shown + (1 / std::numbers::pi) * light_at(s_.direct[static_cast<std::size_t>(place.block)], place.u, place.v);
       node.given = node.given + weight * shown;
-      if (to.block < 0 || !linked[k]) continue;
-      links.push_back({to, {static_cast<float>(carry * weight.r), static_cast<float>(carry * weight.g), static_cast<float>(carry * weight.b)}});
+      if (place.block < 0 || !linked[k]) continue;
+      links.push_back({place, {static_cast<float>(carry * weight.r), static_cast<float>(carry * weight.g), static_cast<float>(carry * weight.b)}});
     }
-    node.count = links.size() - node.first;
-    node.blind = 2 * inside > static_cast<int>(paths.size());
   }
 
   Color carried(const Node& node, const std::vector<LightGrid>& passed) const {
@@ -221,6 +270,7 @@ class Net {
   std::vector<Node> nodes_;
   std::vector<Mesh> meshes_;        ///< per block
   std::vector<Link> links_;
+  int linked_ = kLinked;            ///< of so many directions one is linked
 };
 
 }  // namespace

@@ -21,6 +21,19 @@ namespace orbc::light {
   return at;
 }
 
+/// The same of the unit cube of six dimensions: of the number that solves x⁷ = x + 1.
+[[nodiscard]] constexpr std::array<double, 6> lattice_of_six(int k, const std::array<double, 6>& shift) {
+  constexpr double kG = 1.11277568427870622;
+  std::array<double, 6> at = shift;
+  double step = 1;
+  for (double& v : at) {
+    step /= kG;
+    v += (k + 1) * step;
+    v -= static_cast<double>(static_cast<long>(v));
+  }
+  return at;
+}
+
 /// Random numbers by counting: the n-th number of a key is a function of both alone, so that no picture depends on threads or order.
 class Random {
  public:

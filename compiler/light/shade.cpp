@@ -2,8 +2,6 @@
 // points of a lamp are asked follows from what the image could add: a step of its shadow stays below what 8 bits show.
 #include "compiler/light/shade.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,9 +34,8 @@ double expected(const LightField& field, const LampImage& image, const LightPoin
 }
 
 /// The most that an image can add to a white surface so far away, white = 1.
-double at_most(const LightField& field, const LampImage& image, const HungLamp& lamp, double length, double arc) {
-  return largest(lamp.power) / std::numbers::pi * field.exposure * image.weight * lamp.gain *
-         falloff(lamp.falloff, field.scene.prism.space, std::max(length - lamp.extent, lamp.radius), arc, lamp.radius);
+double at_most(const LightField& field, const LampImage& image, double length, double arc) {
+  return at_most(field.scene.prism.space, field.lamps[static_cast<std::size_t>(image.lamp)], image.weight, field.exposure, length, arc);
 }
 
 /// Adds up f(way, light) over the samples of an image, light = unhindered × weight; f(way) = 0 costs no ray.
@@ -47,7 +44,7 @@ Color gather(const LightField& field, const LampImage& image, const LightPoint& 
   const Space space = field.scene.prism.space;
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way middle = way_to(space, point.origin, image.samples[0], image.sheet);
-  double most = at_most(field, image, lamp, middle.length, middle.arc);
+  double most = at_most(field, image, middle.length, middle.arc);
   if (most < field.options.cut) return {};
   if (by_cosine && middle.exists) {  // the lamp's own extent turns the direction to its samples by little
     const double cosine = trace::inner(space, middle.start, point.normal) + 2 * lamp.extent / middle.length;
@@ -86,12 +83,6 @@ Color falling(const LightField& field, const LampImage& image, const LightPoint&
   return gather(field, image, point, true, [&](const Way& way) { return trace::inner(field.scene.prism.space, way.start, point.normal); });
 }
 
-bool inside_something(const trace::TraceScene& scene, const Position& p) {
-  const trace::Ray ray = trace::ray_from(scene.prism.space, p, {{0, 0.6, 0.3}, 0.74});
-  const trace::Hit hit = trace::closest_triangle(scene, ray);
-  return hit.target == trace::Target::triangle && !trace::surface_at(scene, ray, hit).outside;
-}
-
 }  // namespace
 
 LightOptions light_options(const scene::Scene& scene) {
@@ -109,6 +100,7 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
                                  const Executor& executor) {
   LightField field;
   field.lit = !scene.lamps.empty() || options.passes > 0;
+  field.exposure = scene.exposure;
   if (!field.lit) {
     field.ambient = {1, 1, 1};
     return field;
@@ -116,12 +108,12 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
   auto hung = hang_lamps(scene, room.room);
   if (!hung) return hung.error();
   field.ambient = scene.ambient;
-  field.exposure = scene.exposure;
   field.options = options;
   field.lamps = std::move(hung->lamps);
-  field.warnings = std::move(hung->warnings);
   for (HungLamp& lamp : field.lamps) lamp.feet = feet_of(lamp, room);
-  field.images = lamp_images(field.lamps, room, options.bounces);
+  auto images = lamp_images(field.lamps, room, {options.bounces, scene.exposure, options.cut});
+  if (!images) return located(images.error(), scene.bake.mirrors_span);
+  field.images = std::move(images).value();
   field.normals.resize(room.parts.size());
   executor(room.parts.size(), [&](std::size_t i) { field.normals[i] = part_normals(room, room.parts[i]); });
   auto casting = std::make_shared<place::PlacedRoom>(room);
@@ -131,17 +123,13 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
       casting->parts.end());
   field.casting = casting;
   field.scene = trace::prepare(*field.casting, executor);
-  for (std::size_t i = 0; i < field.lamps.size(); ++i)
-    if (inside_something(field.scene, field.lamps[i].centre))
-      field.warnings.push_back(make_warning("light.lamp-inside-object",
-                                            fmt::format("lamp {} is inside an object, which keeps its light", i + 1), "move it out",
-                                            scene.lamps[i].span));
+  field.near = near_images(field, executor);
   return field;
 }
 
 Color irradiance(const LightField& field, const LightPoint& point) {
   Color sum;
-  for (const LampImage& image : field.images) sum = sum + falling(field, image, point);
+  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + falling(field, field.images[i], point);
   return sum;
 }
 
@@ -151,15 +139,14 @@ Color irradiance(const LightField& field, const LightPoint& point, const std::ve
   return sum;
 }
 
-std::vector<std::uint32_t> images_near(const LightField& field, const Position& centre, double radius) {
+std::vector<std::uint32_t> images_near(const LightField& field, const Position& centre, double radius, double share) {
   std::vector<std::uint32_t> near;
   for (std::uint32_t i = 0; i < field.images.size(); ++i) {
     const LampImage& image = field.images[i];
-    const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
     const Way way = way_to(field.scene.prism.space, centre, image.samples[0], image.sheet);
     // On S² the focus makes falloff no function of distance alone that decreases.
     const bool decreases = field.scene.prism.space != Space::spherical;
-    if (!decreases || at_most(field, image, lamp, way.length - radius, std::max(way.arc - radius, 0.0)) >= field.options.cut) near.push_back(i);
+    if (!decreases || at_most(field, image, way.length - radius, std::max(way.arc - radius, 0.0)) >= share * field.options.cut) near.push_back(i);
   }
   return near;
 }
@@ -170,7 +157,8 @@ Color irradiance_guess(const LightField& field, const LightPoint& point, const s
   // them all, since what decided stretches to a number that is even again (Chao 1982).
   double sum = 0, kept = 0, left = u[0];
   const LampImage* chosen = nullptr;
-  for (const LampImage& image : field.images) {
+  for (const std::uint32_t i : images_at(field, point.at)) {
+    const LampImage& image = field.images[i];
     const double could = expected(field, image, point);
     if (could <= 0) continue;
     sum += could;

@@ -5,6 +5,7 @@
 #include "compiler/base/executor.h"
 #include "compiler/light/albedo.h"
 #include "compiler/light/image.h"
+#include "compiler/light/near.h"
 #include "compiler/light/normals.h"
 #include "compiler/trace/follow.h"
 
@@ -32,10 +33,10 @@ struct LightField {
   LightOptions options;
   std::vector<HungLamp> lamps;
   std::vector<LampImage> images;
+  NearImages near;                  ///< which of them matter where
   std::vector<PartNormals> normals; ///< per part of the room
   std::shared_ptr<const place::PlacedRoom> casting;   ///< what casts shadows: the room without the bodies of its lamps
   trace::TraceScene scene;          ///< of `casting`
-  Diagnostics warnings;             ///< light.lamp-inside-object, light.no-power
 };
 
 /// Hangs the lamps, finds their images, prepares shadows. In: the room with its fixtures (add_fixtures). A scene without lamps costs
@@ -50,15 +51,14 @@ struct LightField {
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point);
 /// The same from some of the images.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images);
-/// The images that can add anything at points within `radius` of a position: for many points that lie together.
-[[nodiscard]] std::vector<std::uint32_t> images_near(const LightField& field, const geometry::Position& centre, double radius);
+/// The images that can add anything at points within `radius` of a position: for many points that lie together. `share`: of the cut.
+[[nodiscard]] std::vector<std::uint32_t> images_near(const LightField& field, const geometry::Position& centre, double radius, double share = 1);
 
 /// A guess of `irradiance` from one shadow ray to one sample of one image: its mean over even numbers u in [0, 1) is the irradiance.
 [[nodiscard]] scene::Color irradiance_guess(const LightField& field, const LightPoint& point, const std::array<double, 3>& u);
 
 /// What a matte surface of the given colour sends to every eye: colour × (ambient + E/π), so that white under E = π shows as white at
-///                                                              exposure 1; emissive ones
-/// emission × colour. Never more than white after exposure: a picture of the room, hung into all copies, holds no more, and both roads must
+/// exposure 1; emissive ones emission × colour. Never more than white after exposure: a picture of the room, hung into all copies, holds no more, and both roads must
 /// agree.
 /// In: what comes to it from other surfaces is part of `irradiance`, times π.
 [[nodiscard]] scene::Color radiance_out(const LightField& field, const scene::Material& material, const scene::Color& albedo,

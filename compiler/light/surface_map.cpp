@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace orbc::light {
 namespace {
@@ -19,7 +20,24 @@ OnBlock place_on(const Block& block, int index, std::size_t triangle, const std:
           static_cast<float>(1 - b[static_cast<std::size_t>(block.second_turn[2])])};
 }
 
+// A point of a wall in the ambient plane through the origin that holds the wall (E²: the line itself, at p = 1): (p, v) along its start and
+// its direction, turned so that the middle of the wall lies in the direction of p.
+std::array<double, 2> in_plane_of_wall(geometry::Space space, const room::Wall& wall, const Point& at) {
+  const double k = geometry::curvature(space), half = wall.length / 2;
+  if (k == 0) return {1, (at.x - wall.start.x) * wall.along.x + (at.y - wall.start.y) * wall.along.y - half};
+  const double p = at.w * wall.start.w + k * (at.x * wall.start.x + at.y * wall.start.y);
+  const double v = k * at.w * wall.along.w + at.x * wall.along.x + at.y * wall.along.y;
+  const double c = geometry::cos_k(space, half), s = geometry::sin_k(space, half);
+  return {c * p + k * s * v, c * v - s * p};
+}
+
 }  // namespace
+
+// The cell of a coordinate, moved by part of a cell; the nearest one outside, and of what is no number.
+int SurfaceMap::cell_of(const Chart& chart, int c, double at, double shift) {
+  const double cell = (at - chart.low[c]) / chart.size[c] + shift;
+  return cell > 0 ? static_cast<int>(std::min(cell, chart.cells - 1.0)) : 0;
+}
 
 SurfaceMap::SurfaceMap(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks) : room_(room) {
   flats_.resize(2 + room.room.walls.size());
@@ -37,40 +55,88 @@ SurfaceMap::SurfaceMap(const place::PlacedRoom& room, const std::vector<std::vec
   }
 }
 
-// Floor and ceiling in the gnomonic chart; a wall in (v/p, z/p) with p, v the coordinates of the ambient plane that holds it: straight both
-// ways, since heights are affine in b, as p and v are.
-std::array<double, 2> SurfaceMap::flat(const PlacedMesh& part, const Point& at, double z) const {
-  if (part.kind != PartKind::wall) return {at.x / at.w, at.y / at.w};
-  const room::Wall& wall = room_.room.walls[static_cast<std::size_t>(part.wall)];
-  const double k = geometry::curvature(room_.room.space);
-  if (k == 0) return {(at.x - wall.start.x) * wall.along.x + (at.y - wall.start.y) * wall.along.y, z};
-  const double p = at.w * wall.start.w + k * (at.x * wall.start.x + at.y * wall.start.y);
-  const double v = k * at.w * wall.along.w + at.x * wall.along.x + at.y * wall.along.y;
-  return {std::atan2(v, p), z};
+// Where to look for a point: bounded coordinates all over the part. Floor and ceiling in the gnomonic chart, on S², where w may vanish, in the
+// disk; walls in (arc length from the middle of the wall, z).
+std::array<double, 2> SurfaceMap::cell_coordinates(const PlacedMesh& part, const Point& at, double z) const {
+  const geometry::Space space = room_.room.space;
+  if (part.kind == PartKind::wall) {
+    const auto [p, v] = in_plane_of_wall(space, room_.room.walls[static_cast<std::size_t>(part.wall)], at);
+    const double s = space == geometry::Space::euclidean ? v : space == geometry::Space::spherical ? std::atan2(v, p) : std::atanh(v / p);
+    return {s, z};
+  }
+  const double scale = space == geometry::Space::spherical ? 1 + at.w : at.w;
+  return {at.x / scale, at.y / scale};
+}
+
+// Affine barycentric coordinates of a point by the definition of the geodesic triangle, P ∥ Σ bᵢXᵢ: nothing is divided by a coordinate.
+std::array<double, 3> SurfaceMap::barycentric(const PlacedMesh& part, const mesh::Triangle& t, const Point& at, double z) const {
+  std::array<double, 3> b{};
+  if (part.kind == PartKind::wall) {
+    // Σ bᵢ·(Xᵢ × P) = 0 in the plane that holds the wall, Σ bᵢzᵢ = z, Σ bᵢ = 1.
+    const room::Wall& wall = room_.room.walls[static_cast<std::size_t>(part.wall)];
+    const auto [p, v] = in_plane_of_wall(room_.room.space, wall, at);
+    geometry::Vector3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [pk, vk] = in_plane_of_wall(room_.room.space, wall, part.floor[t[k]]);
+      corner[k] = {pk * v - vk * p, part.z[t[k]] - z, 1};
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const geometry::Vector3 &q = corner[(k + 1) % 3], &r = corner[(k + 2) % 3];
+      b[k] = q.x * r.y - q.y * r.x;
+    }
+  } else {
+    const auto vector = [](const Point& q) { return geometry::Vector3{q.w, q.x, q.y}; };
+    for (std::size_t k = 0; k < 3; ++k)
+      b[k] = dot(vector(at), cross(vector(part.floor[t[(k + 1) % 3]]), vector(part.floor[t[(k + 2) % 3]])));
+  }
+  const double sum = b[0] + b[1] + b[2];
+  geometry::Ambient there{0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) b[k] /= sum, there = there + b[k] * part.floor[t[k]];
+  // Of a triangle without area these are no numbers; the antipode of a point solves the same equations.
+  const bool here = there.w * at.w + there.x * at.x + there.y * at.y > 0;
+  return here ? b : std::array<double, 3>{-1, -1, -1};
 }
 
 SurfaceMap::Chart SurfaceMap::chart_of(const PlacedMesh& part) const {
   Chart chart;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const bool sphere = room_.room.space == geometry::Space::spherical;
   double high[2] = {-kInfinite, -kInfinite};
   chart.low[0] = chart.low[1] = kInfinite;
   std::vector<std::array<double, 2>> at;
   for (std::size_t v = 0; v < part.floor.size(); ++v) {
-    at.push_back(flat(part, part.floor[v], part.z[v]));
-    for (int c = 0; c < 2; ++c) chart.low[c] = std::min(chart.low[c], at.back()[c]), high[c] = std::max(high[c], at.back()[c]);
+    at.push_back(cell_coordinates(part, part.floor[v], part.z[v]));
+    for (std::size_t c = 0; c < 2; ++c) chart.low[c] = std::min(chart.low[c], at.back()[c]), high[c] = std::max(high[c], at.back()[c]);
   }
   chart.cells = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(part.triangles.size()))), 1, 256);
   for (int c = 0; c < 2; ++c) chart.size[c] = std::max(high[c] - chart.low[c], 1e-12) / chart.cells;
   chart.triangles.resize(static_cast<std::size_t>(chart.cells) * static_cast<std::size_t>(chart.cells));
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
-    int from[2], to[2];
-    for (int c = 0; c < 2; ++c) {
-      const auto [a, b] = std::minmax({at[part.triangles[t][0]][c], at[part.triangles[t][1]][c], at[part.triangles[t][2]][c]});
-      from[c] = std::clamp(static_cast<int>(std::floor((a - chart.low[c]) / chart.size[c] - 0.01)), 0, chart.cells - 1);
-      to[c] = std::clamp(static_cast<int>(std::floor((b - chart.low[c]) / chart.size[c] + 0.01)), 0, chart.cells - 1);
+    std::array<std::array<double, 2>, 3> q{at[part.triangles[t][0]], at[part.triangles[t][1]], at[part.triangles[t][2]]};
+    double bulge = 0;
+    bool around = false;
+    if (sphere && part.kind == PartKind::wall) {
+      // A wall may be a whole great circle: what crosses the far end of the arc lies in both ends of the chart.
+      for (std::size_t k = 1; k < 3; ++k) q[k][0] += 2 * std::numbers::pi * std::round((q[0][0] - q[k][0]) / (2 * std::numbers::pi));
+      around = std::max({q[0][0], q[1][0], q[2][0]}) > std::numbers::pi || std::min({q[0][0], q[1][0], q[2][0]}) < -std::numbers::pi;
+    } else if (sphere) {
+      // Edges are arcs of less than half a circle: none goes farther from its chord than half of it.
+      for (std::size_t k = 0; k < 3; ++k)
+        bulge = std::max(bulge, std::hypot(q[(k + 1) % 3][0] - q[k][0], q[(k + 1) % 3][1] - q[k][1]) / 2);
     }
-    for (int y = from[1]; y <= to[1]; ++y)
-      for (int x = from[0]; x <= to[0]; ++x) chart.triangles[static_cast<std::size_t>(y * chart.cells + x)].push_back(t);
+    for (const double turn : {0.0, -2 * std::numbers::pi, 2 * std::numbers::pi}) {
+      if (turn != 0 && !around) continue;
+      int from[2], to[2];
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double a = std::min({q[0][c], q[1][c], q[2][c]}) - bulge + (c == 0 ? turn : 0),
+                     b = std::max({q[0][c], q[1][c], q[2][c]}) + bulge + (c == 0 ? turn : 0);
+        from[c] = std::max(0, cell_of(chart, static_cast<int>(c), a, -0.01));
+        to[c] = cell_of(chart, static_cast<int>(c), b, 0.01);
+        if (turn != 0 && c == 0 && (b < chart.low[0] || a > high[0])) to[0] = -1;
+      }
+      for (int y = from[1]; y <= to[1]; ++y)
+        for (int x = from[0]; x <= to[0]; ++x) chart.triangles[static_cast<std::size_t>(y * chart.cells + x)].push_back(t);
+    }
   }
   return chart;
 }
@@ -83,22 +149,14 @@ OnBlock SurfaceMap::on_triangle(std::size_t part, std::size_t triangle, const st
 OnBlock SurfaceMap::on_flat(std::size_t p, const trace::SurfacePoint& point) const {
   const PlacedMesh& part = room_.parts[p];
   const Chart& chart = charts_[p];
-  const std::array<double, 2> at = flat(part, point.at.floor, point.at.z);
-  int cell[2];
-  for (int c = 0; c < 2; ++c) cell[c] = std::clamp(static_cast<int>(std::floor((at[c] - chart.low[c]) / chart.size[c])), 0, chart.cells - 1);
+  const std::array<double, 2> at = cell_coordinates(part, point.at.floor, point.at.z);
+  const int x = cell_of(chart, 0, at[0], 0), y = cell_of(chart, 1, at[1], 0);
   double best = -0.05;  // how far outside a triangle it may lie: panels end where frames begin
   OnBlock found;
-  for (const std::uint32_t t : chart.triangles[static_cast<std::size_t>(cell[1] * chart.cells + cell[0])]) {
-    std::array<std::array<double, 2>, 3> q;
-    for (std::size_t k = 0; k < 3; ++k) q[k] = flat(part, part.floor[part.triangles[t][k]], part.z[part.triangles[t][k]]);
-    const auto area = [](const std::array<double, 2>& a, const std::array<double, 2>& b, const std::array<double, 2>& c) {
-      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    };
-    const double all = area(q[0], q[1], q[2]);
-    if (!(std::fabs(all) > 1e-30)) continue;
-    const std::array<double, 3> b{area(at, q[1], q[2]) / all, area(q[0], at, q[2]) / all, area(q[0], q[1], at) / all};
+  for (const std::uint32_t t : chart.triangles[static_cast<std::size_t>(y * chart.cells + x)]) {
+    const std::array<double, 3> b = barycentric(part, part.triangles[t], point.at.floor, point.at.z);
     const double inside = std::min({b[0], b[1], b[2]});
-    if (inside <= best) continue;
+    if (!(inside > best)) continue;
     best = inside;
     found = on_triangle(p, t, b);
     if (inside >= 0) break;

@@ -22,13 +22,16 @@ class SurfaceMap {
   [[nodiscard]] OnBlock find(const trace::SurfacePoint& point, const trace::Hit& hit) const;
 
  private:
-  /// The triangles of a flat part of the room over a grid of cells of two coordinates, in which they are straight.
+  /// The triangles of a floor, ceiling or wall over a grid of cells of two coordinates.
   struct Chart {
     double low[2] = {0, 0}, size[2] = {1, 1};
     int cells = 1;
     std::vector<std::vector<std::uint32_t>> triangles;  ///< per cell
   };
-  [[nodiscard]] std::array<double, 2> flat(const place::PlacedMesh& part, const geometry::Point& at, double z) const;
+  [[nodiscard]] std::array<double, 2> cell_coordinates(const place::PlacedMesh& part, const geometry::Point& at, double z) const;
+  [[nodiscard]] std::array<double, 3> barycentric(const place::PlacedMesh& part, const mesh::Triangle& t, const geometry::Point& at,
+                                                  double z) const;
+  [[nodiscard]] static int cell_of(const Chart& chart, int c, double at, double shift);
   [[nodiscard]] Chart chart_of(const place::PlacedMesh& part) const;
   [[nodiscard]] OnBlock on_triangle(std::size_t part, std::size_t triangle, const std::array<double, 3>& b) const;
   [[nodiscard]] OnBlock on_flat(std::size_t part, const trace::SurfacePoint& point) const;

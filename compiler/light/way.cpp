@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compiler/light/falloff.h"
+#include "compiler/light/frame.h"
 #include "compiler/trace/analytic.h"
 
 namespace orbc::light {
@@ -18,6 +19,8 @@ using scene::Color;
 
 constexpr double kArrival = 1e-5;     // how near to the lamp's sample a shadow ray must end; its own error is below 1e-12 in rooms
 
+constexpr double kUnder = 1e-4;       // of the room's height: a thing's own underside lies nearer to the floor on which it stands
+
 /// A shadow ray's way through the room: its pieces between mirrors, as long as they meet no plain wall.
 struct ShadowPath {
   static constexpr int kMost = 32;
@@ -28,6 +31,39 @@ struct ShadowPath {
   Color weight{1, 1, 1};
   bool complete = false;
 };
+
+/// Distance and unit direction of a floor point.
+struct Towards {
+  double arc = 0;
+  geometry::Ambient direction{0, 0, 0};
+};
+
+// geometry::distance and direction_to in one: from e = Q − P and |e|² = ±4 sin²κ(d/2), the tangent Q − cosκ(d)·P = e ± (|e|²/2)·P has the
+// length sinκ d, and nothing cancels for points near each other. No hypot: coordinates in rooms are tame, and this is asked most of all.
+Towards towards(Space space, const geometry::Point& p, const geometry::Point& q) {
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  Towards to;
+  double sine = 0;                  // of the arc
+  if (space == Space::euclidean) {
+    to.arc = sine = std::sqrt(dx * dx + dy * dy);
+    to.direction = {0, dx, dy};
+  } else if (space == Space::spherical) {
+    const double dw = q.w - p.w, chord2 = dw * dw + dx * dx + dy * dy, half = chord2 / 2;
+    to.direction = {dw + half * p.w, dx + half * p.x, dy + half * p.y};
+    sine = std::sqrt(to.direction.w * to.direction.w + to.direction.x * to.direction.x + to.direction.y * to.direction.y);
+    to.arc = std::atan2(sine, 1 - half);
+  } else {
+    // cosh d − 1: near by the chord, whose w comes from ρ² differences since w alone has lost the small ones; far by the product.
+    const double dw = (dx * (p.x + q.x) + dy * (p.y + q.y)) / (p.w + q.w), chord2 = dx * dx + dy * dy, ww = p.w * q.w;
+    const double half = chord2 > 2 * ww ? std::max(0.0, (ww - 1) - (p.x * q.x + p.y * q.y)) : std::max(0.0, chord2 - dw * dw) / 2;
+    sine = std::sqrt(half * (half + 2));
+    to.arc = std::log1p(half + sine);
+    const double x = dx - half * p.x, y = dy - half * p.y;
+    to.direction = {(p.x * x + p.y * y) / p.w, x, y};
+  }
+  if (sine > 0) to.direction = (1 / sine) * to.direction;
+  return to;
+}
 
 // The same steps as trace::follow, without triangles: most paths that fail, fail here.
 ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double length, int bounces) {
@@ -54,10 +90,11 @@ ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double
 
 Way way_to(Space space, const Position& from, const Position& to, int sheet) {
   Way way;
-  const double near = geometry::distance(space, from.floor, to.floor), dz = to.z - from.z;
+  const Towards floor = towards(space, from.floor, to.floor);
+  const double near = floor.arc, dz = to.z - from.z;
   way.arc = near;
   if (sheet > 0) way.arc = sheet % 2 == 0 ? near + sheet * std::numbers::pi : (sheet + 1) * std::numbers::pi - near;
-  way.length = std::hypot(way.arc, dz);
+  way.length = std::sqrt(way.arc * way.arc + dz * dz);
   if (way.length < 1e-9) return way;
   way.exists = true;
   if (way.arc < 1e-9) {
@@ -66,9 +103,8 @@ Way way_to(Space space, const Position& from, const Position& to, int sheet) {
   }
   way.exists = near >= 1e-9 && (space != Space::spherical || near <= std::numbers::pi - 1e-9);
   if (!way.exists) return way;  // seen from all sides at once: the focus itself has no direction
-  const geometry::Tangent d = geometry::direction_to(space, from.floor, to.floor);
   const double sign = sheet % 2 == 0 ? 1 : -1, c = way.arc / way.length;
-  way.start = {(sign * c) * d, dz / way.length};
+  way.start = {(sign * c) * floor.direction, dz / way.length};
   return way;
 }
 
@@ -111,6 +147,21 @@ LightPoint on_surface(const LightField& field, const LightPoint& point, double r
     nearest = there;
   }
   return nearest;
+}
+
+bool covered(const LightField& field, const LightPoint& point) {
+  if (field.scene.room == nullptr) return false;
+  const Space space = field.scene.prism.space;
+  const Frame frame = frame_at(space, point.at.floor);
+  const geometry::Vector3 n = geometry::normalised(local(space, frame, point.flat)), other = std::fabs(n.z) < 0.7 ? geometry::Vector3{0, 0, 1} : geometry::Vector3{1, 0, 0};
+  const geometry::Vector3 a = geometry::normalised(cross(n, other)), b = cross(n, a);
+  for (const geometry::Vector3& d : {n, n + 0.5 * a + 0.3 * b, n - 0.45 * a + 0.35 * b, n + 0.1 * a - 0.6 * b}) {
+    trace::Ray ray = trace::ray_from(space, point.at, global(frame, geometry::normalised(d)));
+    ray.t_min = std::max(trace::kLeave, kUnder * field.scene.room->height);
+    const trace::Hit hit = trace::closest_triangle(field.scene, ray);
+    if (hit.target != trace::Target::triangle || trace::surface_at(field.scene, ray, hit).outside) return false;
+  }
+  return true;
 }
 
 trace::Ray leaving(const LightField& field, const LightPoint& point, const trace::Direction& direction) {

@@ -25,6 +25,9 @@ struct Way {
 /// shadow. In: how far off it may be. Left as it is where nothing is so near.
 [[nodiscard]] LightPoint on_surface(const LightField& field, const LightPoint& point, double reach);
 
+/// Whether a point lies under or in a closed thing, which nobody looks into: all ways from it end on the inside of triangles.
+[[nodiscard]] bool covered(const LightField& field, const LightPoint& point);
+
 /// The ray that leaves a lit point.
 [[nodiscard]] trace::Ray leaving(const LightField& field, const LightPoint& point, const trace::Direction& direction);
 

@@ -30,23 +30,34 @@ scene::Color least(const scene::Color& a, const scene::Color& b) { return {std::
 
 /// Sums over a pixel's samples, in their order.
 struct Sums {
-  scene::Color radiance, most, guess, guess2;
-  void add(const Seen& seen) {
+  scene::Color radiance, most;
+  struct Group {
+    scene::Color guess;
+    int count = 0;
+  };
+  std::array<Group, Chance::kGroups> groups;   ///< of samples whose guesses belong together
+  void add(const Seen& seen, int group) {
     radiance = radiance + seen.radiance;
     most = most + seen.most;
-    guess = guess + seen.passed_on;
-    guess2 = guess2 + seen.passed_on * seen.passed_on;
+    Group& own = groups[static_cast<std::size_t>(group)];
+    own.guess = own.guess + seen.passed_on, ++own.count;
   }
   scene::Color mean(double n) const { return least((1 / n) * radiance, (1 / n) * most); }
   /// Standard error of the mean in the noisiest channel; of a single guess the guess itself.
   float error(double n) const {
+    scene::Color guess, squares;
+    for (const Group& group : groups) guess = guess + group.guess;
     if (n < 2) return static_cast<float>(largest(guess));
+    double count = 0;
+    for (const Group& group : groups) {
+      if (group.count == 0) continue;
+      const scene::Color off = (1.0 / group.count) * group.guess + (-1.0 / n) * guess;
+      squares = squares + off * off, ++count;
+    }
     // A channel that is white is white: its guesses no longer show.
-    const auto variance = [&](double sum, double sum2, double all, double bound) {
-      return all >= bound ? 0 : std::max(0.0, sum2 - sum * sum / n) / std::max(1.0, n * (n - 1));
-    };
-    return static_cast<float>(std::sqrt(scene::largest({variance(guess.r, guess2.r, radiance.r, most.r), variance(guess.g, guess2.g, radiance.g, most.g),
-                                                 variance(guess.b, guess2.b, radiance.b, most.b)})));
+    const auto variance = [&](double sum, double all, double bound) { return all >= bound ? 0 : sum / (count * (count - 1)); };
+    return static_cast<float>(std::sqrt(scene::largest({variance(squares.r, radiance.r, most.r), variance(squares.g, radiance.g, most.g),
+                                                        variance(squares.b, radiance.b, most.b)})));
   }
 };
 
@@ -55,6 +66,10 @@ trace::Ray eye_ray_from(const place::Eye& eye, const geometry::Point& at, double
   const geometry::Vector3 d = place::direction_through(eye, x, y);
   const geometry::Tangent floor = eye.room_from_eye * geometry::Tangent(0, d.x, d.y);
   return trace::ray_from(eye.room_from_eye.space, {at, eye.z}, {floor, d.z});
+}
+
+Chance chance_of(const DrawOptions& options, std::size_t pixel, int sample) {
+  return {options.light ? options.light->options.seed : 0, pixel, sample, options.samples};
 }
 
 /// Draws pixels by all their samples, as many rays at once as make a stream.
@@ -75,9 +90,9 @@ void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const Dr
       const std::size_t i = first + j, sample = i % count;
       const Pixel at = pixels[i / count];
       const std::size_t pixel = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(at.x);
-      const Seen seen = radiance(scene, std::move(paths[j]), options, light::Random(options.light ? options.light->options.seed : 0, pixel, sample));
+      const Seen seen = radiance(scene, std::move(paths[j]), options, chance_of(options, pixel, static_cast<int>(sample)));
       if (sample == 0) sums = {}, record(seen, pixel, film);
-      sums.add(seen);
+      sums.add(seen, Chance::group_of(static_cast<int>(sample), static_cast<int>(count)));
       if (sample + 1 < count) continue;
       film.color[pixel] = sums.mean(n);
       if (!film.error.empty()) film.error[pixel] = sums.error(n);

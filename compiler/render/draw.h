@@ -1,6 +1,9 @@
 #pragma once
+#include <limits>
+
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
+#include "compiler/light/baked_light.h"
 #include "compiler/light/shade.h"
 #include "compiler/place/eye.h"
 #include "compiler/render/film.h"
@@ -15,7 +18,9 @@ struct DrawOptions {
   int max_depth = 16;               ///< mirror and glass objects met on one path
   int paths = 8;                    ///< `integrator: path`: paths of light from a sample's surface on
   const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
+  const light::BakedLight* baked = nullptr;  ///< where given, what is matte is looked up there instead of being lit
   scene::Color background;          ///< seen, as it is, where a path is cut off
+  double white = std::numeric_limits<double>::infinity();   ///< the most that a surface shows in scenes without light (lit ones: light::white_of)
   bool weighs_background = false;   ///< it is seen times the path's weight instead
 };
 

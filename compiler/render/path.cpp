@@ -18,9 +18,9 @@ using scene::Color;
 
 constexpr int kSurePasses = 2;      // surfaces before which no path is ended by chance: they make most of the light
 
-// One path, by the numbers that choose its first direction.
-Color walked(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, const std::array<double, 3>& first,
-             light::Random& random) {
+// One path, by the direction in which it begins and the numbers that choose what lights its first surface.
+Color walked(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, const light::Chosen& first,
+             const std::array<double, 3>& first_light, light::Random& random) {
   light::LightPoint at = from;
   light::Leg leg{room, field, random, {}, {1, 1, 1}, {}, {}};
   for (int passes = 0; passes < field.options.passes; ++passes) {
@@ -29,24 +29,34 @@ Color walked(const place::PlacedRoom& room, const light::LightField& field, cons
       if (random.next() >= chance) break;
       leg.weight = (1 / chance) * leg.weight;
     }
-    const light::Chosen chosen = light::choose(light::guide_at(field, at), passes == 0 ? first : random.next_three());
+    const light::Chosen chosen = passes == 0 ? first : light::choose(light::guide_at(field, at), random.next_three());
     if (chosen.weight <= 0) break;
     leg.weight = chosen.weight * leg.weight;
     if (!leg.arrive(light::leaving(field, at, chosen.direction))) break;
     at = light::light_point(field, *field.casting, leg.point, leg.hit);
     leg.weight = leg.weight * light::surface_color(room, leg.point);
     if (largest(leg.weight) <= 0) break;
-    leg.sum = leg.sum + leg.weight * (field.ambient + (1 / std::numbers::pi) * light::irradiance_guess(field, at, random.next_three()));
+    const Color light = light::irradiance_guess(field, at, passes == 0 ? first_light : random.next_three());
+    leg.sum = leg.sum + leg.weight * (field.ambient + (1 / std::numbers::pi) * light);
   }
   return leg.sum;
 }
 
 }  // namespace
 
-Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, light::Random& random, int paths) {
-  const std::array<double, 3> shift = random.next_three();
+Chance::Chance(std::uint64_t seed, std::uint64_t pixel, int sample, int samples)
+    : random(seed, pixel, static_cast<std::uint64_t>(sample)), before(sample / std::min(samples, kGroups)) {
+  light::Random of_group(~seed, pixel, static_cast<std::uint64_t>(group_of(sample, samples)));
+  for (double& v : shift) v = of_group.next();
+}
+
+Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, Chance& chance, int paths) {
+  const light::Guide guide = light::guide_at(field, from);
   Color sum;
-  for (int k = 0; k < paths; ++k) sum = sum + walked(room, field, from, light::lattice(k, shift), random);
+  for (int k = 0; k < paths; ++k) {
+    const std::array<double, 6> u = light::lattice_of_six(chance.before * paths + k, chance.shift);
+    sum = sum + walked(room, field, from, light::choose(guide, {u[0], u[1], u[2]}), {u[3], u[4], u[5]}, chance.random);
+  }
   return (1.0 / paths) * sum;
 }
 

@@ -20,7 +20,7 @@ Color at_most(const Color& c, double most) { return {std::min(c.r, most), std::m
 struct Walker {
   const trace::TraceScene& scene;
   const DrawOptions& options;
-  light::Random random;
+  Chance chance;
   Seen& seen;
 
   void add(const Color& radiance) {
@@ -55,13 +55,14 @@ struct Walker {
     if (material.kind == scene::MaterialKind::emissive) return add(weight * light::radiance_out(field, material, color, {}));
     const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
     const bool shines = material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
-    Color out = light::radiance_out(field, material, color, light::irradiance(field, at));
-    if (shines) out = out + light::highlight(field, at, -point.arriving, material, color);
     const double white = light::white_of(field);
+    const auto known = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
+    Color out = known ? white * *known : light::radiance_out(field, material, color, light::irradiance(field, at));
+    if (shines) out = out + light::highlight(field, at, -point.arriving, material, color);
     out = at_most(out, white);
-    if (field.options.passes == 0) return add(weight * out);
+    if (known || field.options.passes == 0) return add(weight * out);
     // What a guess lifts beyond white must not be cut off guess by guess: their mean would become too dark.
-    const Color more = color * passed_on(*scene.room, field, at, random, options.paths);
+    const Color more = color * passed_on(*scene.room, field, at, chance, options.paths);
     const Color kept{out.r < white ? more.r : 0, out.g < white ? more.g : 0, out.b < white ? more.b : 0};
     seen.radiance = seen.radiance + weight * (out + kept);
     seen.passed_on = seen.passed_on + weight * kept;
@@ -75,14 +76,14 @@ struct Walker {
     trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
     if (depth == 0) seen.surface = point, seen.hit = true;
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
-    const Color color = surface_color(*scene.room, point);
-    if (!material) return add(share * (path.weight * color));
+    const Color color = light::surface_color(*scene.room, point);
+    if (!material) return add(share * (path.weight * at_most(color, options.white)));
     const bool glows = material->kind == scene::MaterialKind::emissive;
-    if (glows && !options.light) return add((share * material->emission) * (path.weight * color));
+    if (glows && !options.light) return add(share * (path.weight * at_most(material->emission * color, options.white)));
     const bool mirror = material->kind == scene::MaterialKind::mirror, glass = material->kind == scene::MaterialKind::glass;
     if (!(mirror || glass) || depth >= options.max_depth) {
       if (options.light) return lit(path, point, *material, color, share);
-      return add(share * (path.weight * color));
+      return add(share * (path.weight * at_most(color, options.white)));
     }
     smooth(point, path.hit);
     if (mirror) return go_on(path, point, light::mirrored(scene, point), path.weight * color, share, depth);
@@ -98,8 +99,6 @@ struct Walker {
 
 }  // namespace
 
-Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point) { return light::surface_color(room, point); }
-
 trace::FollowOptions follow_options(const DrawOptions& options) {
   trace::FollowOptions follow;
   follow.max_bounces = options.max_bounces;
@@ -107,15 +106,15 @@ trace::FollowOptions follow_options(const DrawOptions& options) {
   return follow;
 }
 
-Seen radiance(const trace::TraceScene& scene, trace::Path path, const DrawOptions& options, const light::Random& random) {
+Seen radiance(const trace::TraceScene& scene, trace::Path path, const DrawOptions& options, const Chance& chance) {
   Seen seen;
   seen.path = std::move(path);
-  Walker{scene, options, random, seen}.light(seen.path, 1, 0);
+  Walker{scene, options, chance, seen}.light(seen.path, 1, 0);
   return seen;
 }
 
-Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options, const light::Random& random) {
-  return radiance(scene, trace::follow(scene, ray, follow_options(options)), options, random);
+Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options, const Chance& chance) {
+  return radiance(scene, trace::follow(scene, ray, follow_options(options)), options, chance);
 }
 
 }  // namespace orbc::render

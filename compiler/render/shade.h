@@ -1,6 +1,6 @@
 #pragma once
-#include "compiler/light/random.h"
 #include "compiler/render/draw.h"
+#include "compiler/render/path.h"
 
 namespace orbc::render {
 
@@ -17,13 +17,10 @@ struct Seen {
 /// Radiance along a ray: plain colours in scenes without lamps, else their light (DrawOptions::light) and, with `integrator: path`, one guess
 /// of what surfaces pass on to each other; mirrors and glass among the objects followed to `max_depth`.
 [[nodiscard]] Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options,
-                            const light::Random& random = light::Random(0));
+                            const Chance& chance = {});
 /// The same for a ray that has been followed already, with the options of `follow_options`.
 [[nodiscard]] Seen radiance(const trace::TraceScene& scene, trace::Path path, const DrawOptions& options,
-                            const light::Random& random = light::Random(0));
+                            const Chance& chance = {});
 [[nodiscard]] trace::FollowOptions follow_options(const DrawOptions& options);
-
-/// The colour of a surface point without any light: flat, checker cell, or texel (nearest) times colour.
-[[nodiscard]] scene::Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point);
 
 }  // namespace orbc::render

@@ -48,7 +48,7 @@ Node empty_map() {
   return node;
 }
 
-Scene read_root(Reader& reader, const Node& root) {
+Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
   Scene scene;
   scene.span = root.span;
   const Fields fields(reader, root, "the scene", {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "white", "integrator", "bake", "camera", "cover"});
@@ -69,6 +69,7 @@ Scene read_root(Reader& reader, const Node& root) {
   scene.ambient = fields.color("ambient", scene.ambient);
   scene.exposure = fields.number("exposure", scene.exposure, {0, 1e6, true});
   scene.integrator = fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
+  scene.integrator = instead.integrator.value_or(scene.integrator);
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
   scene.camera = read_camera(reader, part("camera"), facts);
   scene.cover = read_cover(reader, part("cover"), scene.cover);
@@ -95,12 +96,12 @@ Diagnostics limited(Diagnostics diagnostics) {
 
 bool is_error(const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }
 
-Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const std::string& folder) {
+Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Instead& instead) {
   Result<Document> document = parse_document(source);
   if (!document) return document.error();
   Reader reader;
   reader.diagnostics = std::move(document->faults);
-  Read read{read_root(reader, document->root), {}};
+  Read read{read_root(reader, document->root, instead), {}};
   read.scene.folder = folder;
   if (std::none_of(reader.diagnostics.begin(), reader.diagnostics.end(), is_error) || read.scene.orbifold_span.source) {
     Diagnostics found = check(read.scene);
@@ -119,15 +120,17 @@ RoomFacts facts_of(const notation::Orbifold& orbifold) {
   return {wall_count(orbifold), corner_count(orbifold), orbifold.strip, curvature_sign(orbifold) == 0, orbifold.corners.size() == 4 && right_angles};
 }
 
-Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder) {
+Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Instead& instead) {
   const std::string& text = source->text;
-  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_marked(source, folder);
-  return read_marked(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder);
+  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_marked(source, folder, instead);
+  return read_marked(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder, instead);
 }
 
-Result<Read> read_scene(const SourceText& source, const std::string& folder) { return read_scene(std::make_shared<const SourceText>(source), folder); }
+Result<Read> read_scene(const SourceText& source, const std::string& folder, const Instead& instead) {
+  return read_scene(std::make_shared<const SourceText>(source), folder, instead);
+}
 
-Result<Read> load_scene(const std::string& path) {
+Result<Read> load_scene(const std::string& path, const Instead& instead) {
   const auto cannot_read = [&](const std::string& why) {
     return make_error("scene.cannot-read", fmt::format("cannot read the scene {}: {}", path, why), "give the path of a scene file; `orbc new '*2323'` writes one");
   };
@@ -143,7 +146,7 @@ Result<Read> load_scene(const std::string& path) {
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > limit)
     return make_error("scene.too-large", fmt::format("{} has more bytes than a scene may have ({})", path, limit), "put big data into mesh files");
-  return read_scene(SourceText{path, std::move(text)}, std::filesystem::path(path).parent_path().string());
+  return read_scene(SourceText{path, std::move(text)}, std::filesystem::path(path).parent_path().string(), instead);
 }
 
 }  // namespace orbc::scene

@@ -99,6 +99,7 @@ BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator) {
   const Fields fields(reader, node, "the bake", {"bounces", "mirrors", "samples", "quality", "seed"});
   bake.bounces = fields.integer("bounces", bake.bounces, 0, 64);
   bake.mirrors = fields.integer("mirrors", bake.mirrors, 0, 12);
+  if (const Node* mirrors = fields.find("mirrors")) bake.mirrors_span = mirrors->span;
   if (fields.has("samples")) bake.samples = fields.integer("samples", 256, 1, 65536);
   bake.quality = fields.choice<BakeQuality>("quality", bake.quality,
                                             {{"draft", BakeQuality::draft}, {"normal", BakeQuality::normal}, {"fine", BakeQuality::fine}});

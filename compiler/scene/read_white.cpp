@@ -9,6 +9,18 @@ namespace {
 
 Color divided(const Color& c, const Color& by) { return {c.r / by.r, c.g / by.g, c.b / by.b}; }
 
+// What glows by itself is a light too, and so is a scene whose surfaces pass light on.
+bool has_light(const Scene& scene) {
+  const auto glows = [](const Material& material) { return material.kind == MaterialKind::emissive; };
+  const auto mirror_glows = [&](const Mirror& mirror) { return !(mirror.glow == Color{}) || (mirror.frame && glows(mirror.frame->material)); };
+  const auto surface_glows = [&](const Surface& surface) { return glows(surface.material) || (surface.mirror && mirror_glows(*surface.mirror)); };
+  return !scene.lamps.empty() || scene.integrator == Integrator::path || surface_glows(scene.room.floor) || surface_glows(scene.room.ceiling) ||
+         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) { return object.material && glows(*object.material); }) ||
+         std::any_of(scene.room.walls.begin(), scene.room.walls.end(), [&](const Wall& wall) {
+           return glows(wall.material) || std::any_of(wall.mirrors.begin(), wall.mirrors.end(), mirror_glows);
+         });
+}
+
 void balance(Material& material, const Color& white) {
   if (material.kind != MaterialKind::emissive) return;
   material.color = divided(material.color, white);
@@ -32,7 +44,7 @@ void balance_white(const Fields& fields, Scene& scene) {
   // Light that shall look white has some of every colour: a hundredth at least.
   for (double* channel : {&white.r, &white.g, &white.b}) *channel = std::max({*channel, 0.01 * luminance, 1e-6});
   white = (1 / std::max(luminance, 1e-6)) * white;
-  if (scene.lamps.empty() && scene.integrator == Integrator::direct) fields.no_effect("white", "there are no lights");
+  if (!has_light(scene)) fields.no_effect("white", "there are no lights");
   for (Lamp& lamp : scene.lamps) lamp.color = divided(lamp.color, white);
   scene.ambient = divided(scene.ambient, white);
   for (Object& object : scene.objects)

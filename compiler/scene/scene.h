@@ -167,7 +167,9 @@ enum class BakeQuality { draft, normal, fine };
 struct BakeSpec {
   int bounces = 64;                 ///< `path`: how often matte surfaces may pass light on; the tracer keeps to it too
   int mirrors = 2;                  ///< mirrors on walls, floor and ceiling that the light of a lamp is followed over, in both roads
-  std::optional<int> samples;       ///< `path`: directions asked at a point of the baked light; missing = the quality's
+  SourceSpan mirrors_span;
+  std::optional<int> samples;       ///< `path`: directions asked at a point of the baked light, and for every 32 of them a path for each sample of the
+                                    ///< tracer; missing = the quality's
   BakeQuality quality = BakeQuality::normal;
   int seed = 1;                     ///< of the tracer's random numbers
 };
@@ -201,7 +203,7 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Lamp> lamps;
   Color ambient{0, 0, 0};           ///< light from everywhere; a scene without lamps is shown in its plain colours
-  double exposure = 1;
+  double exposure = 1;              ///< radiance × exposure is what a picture shows, of plain colours too; not of the background
   Integrator integrator = Integrator::direct;
   BakeSpec bake;
   Camera camera;

@@ -38,7 +38,7 @@ TEST_CASE("what is seen in chrome and glass of any copy is what the eye's own ra
     for (const std::string material : {"mirror", "glass"}) {
       CAPTURE(orbifold, material);
       const driver::Opened scene = opened(orbifold, material);
-      const auto see = driver::see_in(scene, serial_executor());
+      const auto see = driver::see_in(scene, nullptr, serial_executor());
       const auto traced = trace::prepare(*scene.room);
       const auto light = light::prepare_light(scene.scene, *scene.room, light::light_options(scene.scene)).value();
       const render::DrawOptions draw = driver::draw_options(scene, light, serial_executor());
@@ -55,7 +55,7 @@ TEST_CASE("what is seen in chrome and glass of any copy is what the eye's own ra
             const trace::Direction to_eye = light::direction_to_eye(copy, scene.eye, seen.surface.at);
             const trace::Direction off = to_eye + seen.surface.arriving;
             if (trace::inner(scene.room->room.space, off, off) > 1e-12) continue;
-            const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy);
+            const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy, 0);
             ++met;
             same += std::fabs(c.r - seen.radiance.r) < 1e-3 && std::fabs(c.g - seen.radiance.g) < 1e-3 && std::fabs(c.b - seen.radiance.b) < 1e-3;
           }

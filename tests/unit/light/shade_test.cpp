@@ -164,7 +164,8 @@ TEST_CASE("rooms that are no orbifolds get each image only through its own mirro
   Lit by_words = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
   place::PlacedRoom other = by_words.room;
   other.room.orbifold.corners[0] = Rational(5, 2);  // only what decides how images are listed
-  by_words.field.images = light::lamp_images(by_words.field.lamps, other, 2);
+  by_words.field.images = light::lamp_images(by_words.field.lamps, other).value();
+  by_words.field.near = light::near_images(by_words.field, serial_executor());
   CHECK(by_words.field.images.size() == 1 + 4 + 12);
   for (const double x : {0.03, 0.21, -0.17}) {
     const geometry::Point p = geometry::point_from_log(Space::euclidean, {x, 0.111});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/geometry/chart.h"
+#include "compiler/light/baked_light.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/render/shade.h"
@@ -202,4 +204,50 @@ TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that
     INFO(notation << ": " << mean << " ± " << error << ", all " << all);
     CHECK(std::fabs(mean - all) < 4 * error + 0.005 * all);
   }
+}
+
+TEST_CASE("where a box stands on the floor the bake shows what paths find, with no dark or bright band", "[render]") {
+  scene::Scene s = bare("*2222", {0.7, 0.7, 0.7}, false);
+  s.objects.resize(1);
+  s.objects[0].shape = scene::BoxSpec{{0.2, 0.2, 0.3}};
+  s.objects[0].place.floor = scene::AtPolar{0.1, Angle::from_degrees(30)};
+  scene::Lamp lamp;
+  lamp.kind = scene::LampKind::disk;
+  lamp.place.floor = scene::AtPolar{0.2, Angle::from_degrees(200)};
+  lamp.place.z = 0.9 * s.room.height;
+  lamp.power = 3;
+  s.lamps = {lamp};
+  const auto l = lit(s, 16, 1);
+  light::BakeOptions options;
+  const light::Baked baked = light::bake(l->room, l->field, options, serial_executor()).value();
+  const light::BakedLight known(l->room, baked);
+  int compared = 0;
+  double worst = 0;
+  for (const double above : {0.002, 0.006, 0.02, 0.06}) {
+    for (int side = 0; side < 12; ++side) {
+      // From outside of the box towards its middle, just above the floor; and on the floor just in front of it.
+      const double turn = 2 * std::numbers::pi * (side + 0.5) / 12;
+      const geometry::Point middle = geometry::point_from_disk(geometry::Space::euclidean, std::polar(0.1, std::numbers::pi / 6));
+      const geometry::Position from{geometry::point_along(geometry::Space::euclidean, middle, geometry::Tangent(0, std::cos(turn), std::sin(turn)), 0.2), above};
+      for (const double down : {0.0, 0.7}) {
+        const trace::Direction d{{0, -std::sqrt(1 - down * down) * std::cos(turn), -std::sqrt(1 - down * down) * std::sin(turn)}, -down};
+        const trace::Ray ray = trace::ray_from(geometry::Space::euclidean, from, d);
+        const trace::Hit hit = trace::closest(l->traced, ray);
+        const trace::SurfacePoint point = trace::surface_at(l->traced, ray, hit);
+        const auto shown = known.at(point, hit);
+        if (!shown) continue;
+        const light::LightPoint at = light::light_point(l->field, l->room, point, hit);
+        render::Chance chance(1, static_cast<std::uint64_t>(++compared), 0, 1);
+        const scene::Color passed = render::passed_on(l->room, l->field, at, chance, 3000);
+        const scene::Color truth = light::radiance_out(l->field, l->room.looks[static_cast<std::size_t>(point.look)].material, {0.7, 0.7, 0.7},
+                                                       light::irradiance(l->field, at) + std::numbers::pi * passed);
+        const double off = 255 * (scene::encode_srgb(shown->r) - scene::encode_srgb(truth.r));
+        worst = std::max(worst, std::fabs(off));
+        INFO("at height " << above << ", side " << side << ": baked " << shown->r << ", by paths " << truth.r);
+        CHECK(std::fabs(off) < 8);
+      }
+    }
+  }
+  CHECK(compared > 60);
+  CHECK(worst < 8);
 }

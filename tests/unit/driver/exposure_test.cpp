@@ -1,0 +1,57 @@
+// Exposure has one meaning in both roads, with light and without.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "compiler/driver/compile.h"
+#include "compiler/driver/trace.h"
+
+using namespace orbc;
+
+namespace {
+
+driver::Opened opened(const std::string& more) {
+  const auto path = std::filesystem::temp_directory_path() / ("orbc-exposure-" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(path) << "orbc: 1\norbifold: \"*2222\"\nroom: {floor: {color: \"#b0b0b0\"}, ceiling: {color: \"#b0b0b0\"}, walls: {all: {mirror: none, color: \"#b0b0b0\"}}}\n"
+                         "camera: {at: {z: 0.45}, size: [8, 6]}\n" + more;
+  auto done = driver::open_scene(path.string());
+  std::filesystem::remove(path);
+  REQUIRE(done);
+  return std::move(done).value();
+}
+
+int traced(const driver::Opened& scene) {
+  const mesh::Image image = render::to_image(driver::trace(scene, {}, serial_executor()), scene.scene.exposure);
+  return image.rgba[4 * (3 * 8 + 4)];
+}
+
+/// The brightest colour of the atlas that any vertex refers to.
+int exported(const driver::Opened& scene) {
+  const driver::Product product = driver::compile(scene, {}, serial_executor()).value().product;
+  int most = 0;
+  for (const auto& uv : product.uv) {
+    const auto x = static_cast<std::size_t>(uv[0] * static_cast<float>(product.atlas.width)), y = static_cast<std::size_t>(uv[1] * static_cast<float>(product.atlas.height));
+    most = std::max<int>(most, product.atlas.rgba[4 * (y * static_cast<std::size_t>(product.atlas.width) + x)]);
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("exposure means the same in both roads, in scenes without light too", "[driver]") {
+  const double linear = scene::decode_srgb(0xb0 / 255.0);
+  for (const double exposure : {0.5, 1.0, 1.5, 4.0}) {
+    const int expected = static_cast<int>(std::lround(255 * scene::encode_srgb(std::min(1.0, exposure * linear))));
+    const std::string plain = "exposure: " + std::to_string(exposure) + "\n";
+    CAPTURE(exposure, expected);
+    CHECK(traced(opened(plain)) == expected);
+    CHECK(exported(opened(plain)) == expected);
+    // A glass ball has light worked out for the atlas, though there is none.
+    const std::string ball = plain + "objects: [{sphere: {radius: 0.02}, at: {polar: [0.3, 200deg]}, material: glass}]\n";
+    CHECK(traced(opened(ball)) == expected);
+    CHECK(exported(opened(ball)) == expected);
+  }
+}

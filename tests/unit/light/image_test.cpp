@@ -1,0 +1,89 @@
+#include "compiler/light/image.h"
+
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <string>
+
+#include "compiler/light/shade.h"
+#include "compiler/notation/parse.h"
+#include "compiler/place/furnish.h"
+#include "compiler/room/realise.h"
+#include "compiler/scene/defaults.h"
+
+using namespace orbc;
+
+namespace {
+
+struct Hung {
+  scene::Scene scene;
+  place::PlacedRoom room;
+  std::vector<light::HungLamp> lamps;
+};
+
+Hung hung(const char* notation, int lamps) {
+  Hung h;
+  h.scene = scene::default_scene(notation::parse(notation, {{}, true}).value());
+  scene::Lamp lamp;
+  lamp.kind = scene::LampKind::point;
+  lamp.place.floor = scene::AtPolar{0.02, Angle::from_degrees(20)};
+  lamp.place.z = 0.6;
+  lamp.power = 0.05;
+  h.scene.lamps.assign(static_cast<std::size_t>(lamps), lamp);
+  const room::Room room = room::realise(h.scene.orbifold, h.scene.room.shape, true).value();
+  h.room = place::furnish(h.scene, room).value().room;
+  h.lamps = light::hang_lamps(h.scene, room).value().lamps;
+  return h;
+}
+
+}  // namespace
+
+TEST_CASE("images that give too little light are left out, and no point of the room misses them", "[light]") {
+  for (const char* notation : {"*22222", "*2222", "*2222222"}) {
+    CAPTURE(notation);
+    const Hung h = hung(notation, 1);
+    light::LightOptions options;
+    options.bounces = 5;
+    light::LightField field = light::prepare_light(h.scene, h.room, options).value();
+    const std::size_t kept = field.images.size();
+    const auto irradiance = [&](double r, double z) {
+      const geometry::Point p = geometry::point_along(h.room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), r);
+      return light::irradiance(field, {{p, z}, {{0, 0, 0}, z > 0 ? -1.0 : 1.0}, {p, z}, -1, false}).r;
+    };
+    const double reach = 0.9 * h.room.room.inradius;
+    const double centre = irradiance(0, 0), rim = irradiance(reach, 0), above = irradiance(reach, h.room.height);
+    field.images = light::lamp_images(field.lamps, h.room, {5, 1, 0}).value();
+    field.near = {0, 0, 0, 0, {std::vector<std::uint32_t>(field.images.size())}};
+    for (std::uint32_t i = 0; i < field.images.size(); ++i) field.near.images[0][i] = i;
+    CHECK(kept < field.images.size());
+    CHECK(irradiance(0, 0) == Approx(centre).epsilon(1e-12));
+    CHECK(irradiance(reach, 0) == Approx(rim).epsilon(1e-12));
+    CHECK(irradiance(reach, h.room.height) == Approx(above).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("lamps with more images than can be kept are refused, with the number of mirrors that fits", "[light]") {
+  const Hung many = hung("*22222222", 3);
+  const auto refused = light::lamp_images(many.lamps, many.room, {12, 1e6, 1e-9});
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().front().code == "light.too-many-images");
+  const std::string& hint = refused.error().front().hint;
+  const int fits = std::stoi(hint.substr(hint.find("mirrors: ") + 9));
+  CHECK(light::lamp_images(many.lamps, many.room, {fits, 1e6, 1e-9}));
+  CHECK_FALSE(light::lamp_images(many.lamps, many.room, {fits + 1, 1e6, 1e-9}));
+  // Rooms that are no orbifolds have an image for every word of mirrors.
+  const Hung words = hung("*(5/2)(5/2)(5/2)(5/2)", 2);
+  const auto also = light::lamp_images(words.lamps, words.room, {12, 1e6, 1e-9});
+  REQUIRE_FALSE(also);
+  CHECK(also.error().front().code == "light.too-many-images");
+}
+
+TEST_CASE("what the scene says of mirrors is where too many images are reported", "[light]") {
+  Hung many = hung("*22222222", 3);
+  const auto source = std::make_shared<const SourceText>(SourceText{"scene.yaml", "bake: {mirrors: 12}\n"});
+  many.scene.bake.mirrors = 12, many.scene.bake.mirrors_span = {source, 1, 17, 2};
+  many.scene.exposure = 1e6;
+  const auto field = light::prepare_light(many.scene, many.room, light::light_options(many.scene));
+  REQUIRE_FALSE(field);
+  CHECK(field.error().front().span.line == 1);
+  CHECK(field.error().front().span.column == 17);
+}
