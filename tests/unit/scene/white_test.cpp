@@ -34,8 +34,9 @@ TEST_CASE("a white point may be a colour, and what glows is divided by it", "[sc
 
 TEST_CASE("a white point is of use where anything glows or surfaces pass light on, also at the command line's word", "[scene]") {
   const auto notes = [](const std::string& more, const Instead& instead) {
+    const auto read_in = read_scene(SourceText{"white", "orbc: 1\norbifold: \"*2222\"\n" + more}, "", instead);
     std::string codes;
-    for (const Diagnostic& note : read_scene(SourceText{"white", "orbc: 1\norbifold: \"*2222\"\n" + more}, "", instead).value().notes) codes += note.code + " ";
+    for (const Diagnostic& note : read_in->notes) codes += note.code + " ";
     return codes;
   };
   CHECK(notes("white: 3000\n", {}) == "scene.no-effect ");
