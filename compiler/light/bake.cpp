@@ -15,7 +15,7 @@
 #include "compiler/light/blocks.h"
 #include "compiler/light/light_grid.h"
 #include "compiler/light/passing.h"
-#include "compiler/light/random.h"
+#include "compiler/light/pattern_density.h"
 #include "compiler/light/way.h"
 
 namespace orbc::light {
@@ -26,15 +26,6 @@ using scene::Color;
 using Texel = std::array<std::uint8_t, 4>;
 
 constexpr double kContrast = 5;     // steps of 1/255 between neighbouring points that ask for a point between them
-constexpr int kMaxLevel = 11;       // of a block: 2049 texels a side
-constexpr double kGrains = 8;       // texels per cell of a solid pattern, at least
-constexpr double kFinestPattern = 3;  // times BakeOptions::texture_fine: no solid pattern gets more texels
-constexpr double kPatternError = 2;   // times BakeOptions::tolerance: by so much texels of a pattern may be off
-constexpr int kFew = 25;              // at one of so many places
-constexpr int kPlaces = 64;           // looked at on a block
-
-// Halvings that make so many cells; a half of one is rounded off, since meshes finer than asked for gain nothing.
-int level_of(double cells) { return std::clamp(static_cast<int>(std::lround(std::log2(std::max(1.0, cells)))), 0, kMaxLevel); }
 
 struct Part {
   const place::PlacedRoom& room;
@@ -97,7 +88,7 @@ class BlockBaker {
   Finished finish(const LightGrid& lamps, const LightGrid* passed) {
     Finished done;
     done.asked = lamps.asked;
-    const double fine = varies_ ? pattern_density() : 0;
+    const double fine = varies_ ? pattern_density(part_.room, part_.mesh, block_, part_.options) : 0;
     const auto points = [&](double length, int own, int other) { return std::max({own, other, (1 << level_of(length * fine)) + 1}); };
     const int w = done.box.width = points(block_.length_u, lamps.w, passed ? finer(lamps.w, passed->w) : 0);
     const int h = done.box.height = points(block_.length_v, lamps.h, passed ? finer(lamps.h, passed->h) : 0);
@@ -132,43 +123,6 @@ class BlockBaker {
   }
   InTriangle place(int i, int j) const {
     return in_triangle(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1));
-  }
-
-  // Texels per unit of length for what varies on the surface: of solid patterns as many as they ask for, since granite hides detail that
-  // marble of the same cell does not have.
-  double pattern_density() const {
-    const place::Look& look = part_.room.looks[part_.mesh.look[block_.first]];
-    const BakeOptions& options = part_.options;
-    if (look.texture >= 0) return options.texture_fine;
-    double density = std::clamp(kGrains / std::max(material_->cell, 1e-6), options.fine, options.texture_fine);
-    while (density < kFinestPattern * options.texture_fine && blurs(density)) density *= 2;
-    return density;
-  }
-
-  // Whether texels at that density, looked up in between, would show the pattern wrongly at more than a few of some places.
-  bool blurs(double density) const {
-    const int cells_u = 1 << level_of(block_.length_u * density), cells_v = 1 << level_of(block_.length_v * density);
-    if (cells_u >= 1 << kMaxLevel && cells_v >= 1 << kMaxLevel) return false;
-    const int places = std::min(kPlaces, 2 * cells_u * cells_v);
-    int wrong = 0;
-    for (int k = 0; k < places; ++k) {
-      const auto at = lattice(k);
-      double u = at[0], v = at[1];
-      if (block_.second < 0 && u + v > 1) u = 1 - u, v = 1 - v;
-      const double i = std::min(std::floor(u * cells_u), cells_u - 1.0), j = std::min(std::floor(v * cells_v), cells_v - 1.0);
-      const double s = u * cells_u - i, t = v * cells_v - j;
-      const auto texel = [&](double x, double y) {
-        x /= cells_u, y /= cells_v;
-        if (block_.second < 0 && x + y > 1) x = 1 - y;   // beyond the long side of a single triangle: as good as on it
-        return albedo(x, y);
-      };
-      const Color between = (1 - t) * ((1 - s) * texel(i, j) + s * texel(i + 1, j)) + t * ((1 - s) * texel(i, j + 1) + s * texel(i + 1, j + 1));
-      const Color truth = albedo(u, v);
-      const auto code = [](double c) { return 255 * scene::encode_srgb(std::clamp(c, 0.0, 1.0)); };
-      wrong += std::max({std::fabs(code(between.r) - code(truth.r)), std::fabs(code(between.g) - code(truth.g)), std::fabs(code(between.b) - code(truth.b))}) >
-               kPatternError * part_.options.tolerance;
-    }
-    return wrong * kFew > places;
   }
 
   void ask(int i, int j) {
