@@ -86,13 +86,19 @@ double tan_by_arc(Space space, double y) {  // tanκ(√y)/√y
   return a < 1e-4 ? 1 + geometry::curvature(space) * y / 3 : geometry::tan_k(space, a) / a;
 }
 
-/// Odd polynomial through the Chebyshev nodes of y = a² ∈ [0, radius²]; Newton's form expanded into powers.
-void fit(Space space, double radius, int terms, double out[7]) {
+double arc_by_tan(Space space, double y) {  // atanκ(√y)/√y
+  const double t = std::sqrt(y);
+  return t < 1e-4 ? 1 - geometry::curvature(space) * y / 3 : (space == Space::spherical ? std::atan(t) : std::atanh(t)) / t;
+}
+
+/// Odd polynomial through the Chebyshev nodes of y = a² ∈ [0, end²] of `by`(y) = f(a)/a; Newton's form expanded into powers.
+template <class By>
+void fit(Space space, const By& by, double end, int terms, double out[7]) {
   double node[7], difference[7];
-  const double top = radius * radius;
+  const double top = end * end;
   for (int i = 0; i < terms; ++i) {
     node[i] = top * 0.5 * (1 - std::cos((2 * i + 1) * 3.14159265358979 / (2 * terms)));
-    difference[i] = tan_by_arc(space, node[i]);
+    difference[i] = by(space, node[i]);
   }
   for (int level = 1; level < terms; ++level)
     for (int i = terms - 1; i >= level; --i) difference[i] = (difference[i] - difference[i - 1]) / (node[i] - node[i - level]);
@@ -112,13 +118,14 @@ bool is_increasing(const float poly[7], int terms, double radius) {
   return poly[terms - 1] > 0;
 }
 
-double error_of(Space space, const float poly[7], int terms, double radius) {
+template <class By>
+double error_of(Space space, const By& by, const float poly[7], int terms, double end) {
   double error = 0;
   for (int i = 0; i <= 4096; ++i) {
-    const double a = radius * i / 4096, y = a * a;
+    const double a = end * i / 4096, y = a * a;
     double p = 0;
     for (int k = terms - 1; k >= 0; --k) p = p * y + double(poly[k]);
-    error = std::max(error, std::fabs(a * p - geometry::tan_k(space, a)));
+    error = std::max(error, a * std::fabs(p - by(space, y)));
   }
   return error;
 }
@@ -132,33 +139,40 @@ void choose_polynomial(Space space, double radius, Chart& chart) {
   }
   for (const int terms : space == Space::spherical ? std::vector<int>{2, 4, 7} : std::vector<int>{3, 5, 7}) {
     double poly[7];
-    fit(space, radius, terms, poly);
+    fit(space, tan_by_arc, radius, terms, poly);
     for (int k = 0; k < 7; ++k) chart.poly[k] = static_cast<float>(poly[k]);
     chart.terms = terms;
-    const double error = error_of(space, chart.poly, terms, radius);
+    const double error = error_of(space, tan_by_arc, chart.poly, terms, radius);
     chart.poly_error = static_cast<float>(1.01 * error + 4e-6 * (1 + geometry::tan_k(space, radius)));
     if (is_increasing(chart.poly, terms, radius) && (error < 4e-3 * radius || terms == 7)) return;
   }
   ORBC_CHECK(is_increasing(chart.poly, chart.terms, radius), ==, true);
 }
 
-/// Bounds for the leaf test, with T = tanκ, |a| ≤ reach: T′ ≤ steepest; along a segment a(u) is projective, its weights 1/w in a ratio of at
-/// most ρ, so |a′| ≤ ρ|Δa| and |a″| ≤ 2ρ|Δa|·|Δ(1/w)|·w; a curve leaves its chord by at most |f″|/8.
-void add_leaf_bounds(Space space, Chart& chart) {
-  const double reach = chart.reach, k = geometry::curvature(space), end = geometry::tan_k(space, reach);
-  double error = 0;
-  for (int i = 0; i <= 4096; ++i) {
-    const double a = reach * i / 4096;
-    error = std::max(error, std::fabs(pade_tan(k, a) - geometry::tan_k(space, a)));
+/// The leaf test's arc: 4 terms where they do, 7 in wider charts, else the general functions, good to some ulp.
+void choose_arc(Space space, Chart& chart) {
+  const double end = chart.tangent;
+  chart.arc_terms = 0;
+  chart.arc_error = static_cast<float>(1e-6 * (1 + chart.radius));
+  for (const int terms : {4, 7}) {
+    double poly[7];
+    fit(space, arc_by_tan, end, terms, poly);
+    for (int k = 0; k < 7; ++k) chart.arc_poly[k] = static_cast<float>(poly[k]);
+    const double error = error_of(space, arc_by_tan, chart.arc_poly, terms, end);
+    if (error > 1e-6 * end) continue;
+    chart.arc_terms = terms;
+    chart.arc_error = static_cast<float>(1.01 * error + 1e-6 * chart.radius);
+    return;
   }
-  chart.leaf_error = static_cast<float>(1.01 * error + 1e-6 * end);
-  const double steepest = space == Space::spherical ? 1 + end * end : 1;
-  const double sharpest = space == Space::spherical ? 2 * end * (1 + end * end) : 0.77;  // of T″ = −2κ̂ T(1 + κT²); H²: at tanh² = 1/3
+}
+
+/// Bounds for the leaf test: along a segment z(u) is projective, its weights 1/w in a ratio of at most ρ, so |z″| ≤ 2ρ|Δz|·|Δ(1/w)|·w; a curve
+/// leaves its chord by at most |z″|/8.
+void add_leaf_bounds(Space space, Chart& chart) {
+  choose_arc(space, chart);
   const double ratio = space == Space::spherical ? 1 / std::cos(chart.radius) : std::cosh(chart.radius);
   chart.ratio = static_cast<float>(1.001 * ratio);
-  chart.steepest = static_cast<float>(1.01 * steepest);
-  chart.bend_of_tan = static_cast<float>(1.05 * sharpest * ratio * ratio / 8);
-  chart.bend_of_height = static_cast<float>(1.05 * steepest * 2 * ratio * double(chart.largest_w) / 8);
+  chart.bend_of_height = static_cast<float>(1.05 * 2 * ratio * double(chart.largest_w) / 8);
 }
 
 }  // namespace
@@ -203,7 +217,6 @@ Chart make_chart(Space space, const ChartPlan& plan, const Soup& soup) {
   chart.tangent = geometry::tan_k(space, chart.radius);
   chart.nearest_foot2 = std::pow(geometry::cos_k(space, chart.radius * 1.0001), 2);
   choose_polynomial(space, chart.radius, chart);
-  chart.reach = static_cast<float>(1.02 * chart.radius);
   if (space != Space::euclidean) add_leaf_bounds(space, chart);
   return chart;
 }

@@ -20,10 +20,10 @@ struct Chart {
   int terms = 1;                    ///< of the odd polynomial
   float poly[7] = {1, 0, 0, 0, 0, 0, 0};  ///< tanκ(a) ≈ Σ poly[k]·a^(2k+1), increasing on all of ℝ
   float poly_error = 0;             ///< its largest error for |a| ≤ radius, in the float evaluation
-  float leaf_error = 0;             ///< of the rational function of the leaf test for |a| ≤ reach
-  float reach = 0;                  ///< a little above `radius`: arcs of the leaf test are clamped here
-  float steepest = 1;               ///< largest slope of tanκ there
-  float bend_of_tan = 0, bend_of_height = 0;  ///< bounds of the curve's bend between two crossings (leaf test)
+  int arc_terms = 0;                ///< of the leaf test's odd polynomial; 0: the chart is too wide for one
+  float arc_poly[7] = {1, 0, 0, 0, 0, 0, 0};  ///< arc of tanκ: atanκ(t) ≈ Σ arc_poly[k]·t^(2k+1) for |t| ≤ tangent
+  float arc_error = 0;              ///< bound of its error (or of the general function's), in the float evaluation
+  float bend_of_height = 0;         ///< bound of a height's bend between two crossings, per change of the height and of 1/w (leaf test)
   std::vector<Node8> nodes;         ///< nodes[0] is the root
   std::vector<Block8> blocks;
 };
@@ -47,12 +47,5 @@ struct ChartPlans {
 /// Makes the chart's map and polynomials (no tree yet).
 /// Exact: `poly` is checked to be increasing and its error measured; both enter the padding of the node test.
 [[nodiscard]] Chart make_chart(geometry::Space space, const ChartPlan& plan, const Soup& soup);
-
-/// tanκ as the leaf test evaluates it: the Padé approximant [5/4], |a| ≤ Chart::reach.
-template <class T>
-[[nodiscard]] constexpr T pade_tan(T curvature, T a) {
-  const T y = a * a;
-  return a * (T(945) + y * (T(-105) * curvature + y)) / (T(945) + y * (T(-420) * curvature + T(15) * y));
-}
 
 }  // namespace orbc::trace

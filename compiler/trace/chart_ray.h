@@ -17,7 +17,7 @@ struct ChartRay {
   float scale[2] = {0, 0};          ///< t = plane·scale − near_offset | far_offset
   float near_offset[2] = {0, 0}, far_offset[2] = {0, 0};
   float slope = 0, near_height = 0, far_height = 0;  ///< argument of tanκ = z·slope − near_height | far_height
-  float steepness = 0, stretch = 1; ///< |slope| · Chart::ratio, and change of t per width of a triangle
+  float stretch = 1;                ///< change of t per width of a triangle
   float start = 0;                  ///< t where the ray begins (a little before)
   float reach = kNever;             ///< t where it ends (a little after)
   float surely_after = 0, surely_before = 0;  ///< what lies between is met, whatever the rounding
@@ -25,8 +25,9 @@ struct ChartRay {
   float t_x = 0, t_y = 0;           ///< t of a chart point = t_x·x + t_y·y
   float h_x = 0, h_y = 0, h_0 = 0;  ///< its distance from the line = h_x·x + h_y·y − h_0
   float h_error = 0, t_error = 0;   ///< bounds of the rounding of both
-  float height = 0;                 ///< argument of tanκ = z·slope − height, unpadded
-  float slope_error = 0;            ///< |slope| · bound of the rounding of heights
+  float rise = 1, run = 0, level = 0;  ///< c, m and c·z0 − m·s0: c·z − m·s − level is how far above the ray a point lies (times c)
+  float level_error = 0;            ///< bound of the rounding of that
+  float rise_blur = 0, run_size = 0;   ///< c · Chart::ratio, |m|
   double s0 = 0;                    ///< arc of the ray's start from Q
   double c = 1;
   bool misses = false;              ///< the geodesic stays away from all of the chart, or ends before it

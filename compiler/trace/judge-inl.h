@@ -6,6 +6,7 @@
 #define ORBC_TRACE_JUDGE_INL_H
 #endif
 
+#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 #include <cmath>
@@ -70,7 +71,7 @@ struct Corner {
 };
 
 struct Cut {
-  V t, a, w, t_error, a_error;      ///< t, argument of tanκ, 1/w of an edge's crossing, and bounds of the errors of the first two
+  V t, z, w, t_error, blur;         ///< t, height and 1/w of an edge's crossing; bound of the error of t; how far along the edge it may really be
 };
 
 HWY_INLINE Corner pick(M first, const Corner& a, const Corner& b) {
@@ -85,13 +86,28 @@ HWY_INLINE V by(V x) {
   return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
 }
 
-/// The Padé approximant [5/4] of tanκ, as in chart.h.
-HWY_INLINE V pade(V kappa, V a) {
+/// In charts that are too wide for a polynomial.
+template <Space kSpace>
+HWY_NOINLINE V wide_arc(V t) {
   const D d;
-  const V y = hn::Mul(a, a);
-  const V over = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -105.0f), kappa, y), hn::Set(d, 945.0f));
-  const V under = hn::MulAdd(y, hn::MulAdd(hn::Set(d, -420.0f), kappa, hn::Mul(hn::Set(d, 15.0f), y)), hn::Set(d, 945.0f));
-  return hn::Mul(hn::Mul(a, over), by(under));
+  if constexpr (kSpace == Space::spherical) return hn::Atan(d, t);
+  const V one = hn::Set(d, 1.0f), inside = hn::Min(hn::Set(d, 0.9999f), hn::Max(hn::Set(d, -0.9999f), t));
+  return hn::Mul(hn::Set(d, 0.5f), hn::Log(d, hn::Div(hn::Add(one, inside), hn::Sub(one, inside))));
+}
+
+/// atanκ(t), to Chart::arc_error.
+template <Space kSpace>
+HWY_INLINE V arc(const Chart& chart, V t) {
+  const D d;
+  if constexpr (kSpace == Space::euclidean) return t;
+  const auto c = [&](int k) { return hn::Set(d, chart.arc_poly[k]); };
+  const V y = hn::Mul(t, t);
+  if (HWY_LIKELY(chart.arc_terms == 4)) return hn::Mul(t, hn::MulAdd(y, hn::MulAdd(y, hn::MulAdd(y, c(3), c(2)), c(1)), c(0)));
+  if (chart.arc_terms == 7) {
+    const V high = hn::MulAdd(y, hn::MulAdd(y, hn::MulAdd(y, c(6), c(5)), c(4)), c(3));
+    return hn::Mul(t, hn::MulAdd(y, hn::MulAdd(y, hn::MulAdd(y, high, c(2)), c(1)), c(0)));
+  }
+  return wide_arc<kSpace>(t);
 }
 
 template <Space kSpace>
@@ -99,27 +115,25 @@ HWY_INLINE Cut cut_edge(const ChartRay& ray, V size, const Corner& i, const Corn
   const D d;
   const V hi = hn::Abs(i.h), hj = hn::Abs(j.h);
   const V by_sum = by(hn::Add(hi, hj));
-  const V blur = hn::Mul(hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum), size);  // how far the crossing may really be along the edge
   Cut cut;
+  cut.blur = hn::Mul(hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum), size);
   cut.t = hn::Mul(by_sum, hn::MulAdd(hj, i.t, hn::Mul(hi, j.t)));
-  cut.t_error = hn::MulAdd(blur, hn::Set(d, ray.stretch), hn::Set(d, ray.t_error));
-  V z = hn::MulAdd(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
+  cut.t_error = hn::MulAdd(cut.blur, hn::Set(d, ray.stretch), hn::Set(d, ray.t_error));
+  cut.z = hn::MulAdd(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
   if constexpr (kSpace != Space::euclidean) {
     const V w = hn::MulAdd(hj, i.by_w, hn::Mul(hi, j.by_w));
-    z = hn::Mul(z, by(w));
+    cut.z = hn::Mul(cut.z, by(w));
     cut.w = hn::Mul(w, by_sum);
   } else {
-    z = hn::Mul(z, by_sum);
+    cut.z = hn::Mul(cut.z, by_sum);
     cut.w = by_sum;
   }
-  cut.a = hn::MulSub(z, hn::Set(d, ray.slope), hn::Set(d, ray.height));
-  cut.a_error = hn::MulAdd(blur, hn::Set(d, ray.steepness), hn::Set(d, ray.slope_error));
   return cut;
 }
 
 /// What the float test of a block found out.
 struct alignas(32) Verdict {
-  float f_one[8], f_two[8];         ///< t − tanκ(a) at the two crossings
+  float f_one[8], f_two[8];         ///< heights above the ray, times c, at the two crossings
   float nearer[8], farther[8];      ///< bounds of t at the triangle; of sure ones, of the hit
   std::uint32_t candidates = 0;     ///< bit per lane: the triangle may be met
   std::uint32_t sure = 0;           ///< of these: it is met exactly once, between the crossings
@@ -132,9 +146,10 @@ HWY_INLINE std::uint32_t bits_of(M mask) {
 }
 
 /// Which of eight triangles the ray may meet between `start` and `end`.
-/// Conservative: with f = t − tanκ(a) at the two crossings, a triangle is dropped only when f has surely the same sign at both and neither is
-/// nearer to 0 than the curve in between can bend, or both crossings surely lie beyond the chart's heights, or beside the ray's ends. It is
-/// sure when the signs differ by so much that no rounding and no bend (f′ = 0 needs |f₁ − f₂| ≤ max|f″| = 8 bends) matters.
+/// Conservative: with f = c·z − m·atanκ(t) − level at the two crossings, how far the triangle is above the ray there, a triangle is dropped only
+/// when f has surely the same sign at both and either does not turn in between or is farther from 0 than the curve in between can bend, or both
+/// crossings surely lie beside the ray's ends. It is sure when the signs surely differ and f does not turn: f′ = 0 anywhere between needs
+/// |f₁ − f₂| ≤ max|f″|/2 = 4 bends.
 template <Space kSpace>
 HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, Verdict& verdict) {
   const D d;
@@ -161,39 +176,34 @@ HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& r
     const V farther = hn::Max(hn::Add(one.t, one.t_error), hn::Add(two.t, two.t_error));
     const V nearer = hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error));
     const M late = hn::Gt(nearer, hn::Set(d, ray.reach));
-    M missed = hn::Or(late, hn::Lt(farther, hn::Set(d, ray.start)));
-    V f1, f2, e1, e2;
-    if constexpr (kSpace == Space::euclidean) {
-      f1 = hn::Sub(one.t, one.a);
-      f2 = hn::Sub(two.t, two.a);
-      e1 = hn::Add(one.t_error, one.a_error);
-      e2 = hn::Add(two.t_error, two.a_error);
-      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
-      missed = hn::Or(missed, hn::Or(over, under));
-      const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
-      verdict.sure |= bits_of(hn::AndNot(unsure, hn::And(hn::Gt(least, zero), hn::Lt(hn::Mul(f1, f2), zero)))) << lane;
-    } else {
-      constexpr float kCurvature = kSpace == Space::spherical ? 1.0f : -1.0f;
-      const V reach = hn::Set(d, chart.reach), minus_reach = hn::Set(d, -chart.reach), kappa = hn::Set(d, kCurvature);
-      const M above = hn::And(hn::Gt(hn::Sub(one.a, one.a_error), reach), hn::Gt(hn::Sub(two.a, two.a_error), reach));
-      const M below = hn::And(hn::Lt(hn::Add(one.a, one.a_error), minus_reach), hn::Lt(hn::Add(two.a, two.a_error), minus_reach));
-      const V a1 = hn::Min(reach, hn::Max(minus_reach, one.a)), a2 = hn::Min(reach, hn::Max(minus_reach, two.a));
-      f1 = hn::Sub(one.t, pade(kappa, a1));
-      f2 = hn::Sub(two.t, pade(kappa, a2));
-      const V steepest = hn::Set(d, chart.steepest), leaf_error = hn::Set(d, chart.leaf_error);
-      // Bound of the curve's deviation from its chord: |f″|/8 over the segment, f = t − tanκ(a(u)), a projective in u.
-      const V da = hn::Abs(hn::Sub(one.a, two.a)), dw = hn::Abs(hn::Sub(one.w, two.w));
-      V bend = hn::Mul(da, hn::MulAdd(da, hn::Set(d, chart.bend_of_tan), hn::Mul(dw, hn::Set(d, chart.bend_of_height))));
-      const M clamped = hn::Or(hn::Ne(a1, one.a), hn::Ne(a2, two.a));
-      bend = hn::Add(bend, hn::IfThenElseZero(clamped, hn::Abs(hn::Sub(one.t, two.t))));
-      e1 = hn::Add(bend, hn::Add(one.t_error, hn::MulAdd(steepest, one.a_error, leaf_error)));
-      e2 = hn::Add(bend, hn::Add(two.t_error, hn::MulAdd(steepest, two.a_error, leaf_error)));
-      const M over = hn::And(hn::Gt(f1, e1), hn::Gt(f2, e2)), under = hn::And(hn::Lt(f1, hn::Neg(e1)), hn::Lt(f2, hn::Neg(e2)));
-      missed = hn::Or(hn::Or(missed, hn::Or(above, below)), hn::Or(over, under));
-      const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
-      const M sure = hn::AndNot(hn::Or(unsure, clamped), hn::And(hn::Gt(least, hn::Mul(hn::Set(d, 3.0f), bend)), hn::Lt(hn::Mul(f1, f2), zero)));
-      verdict.sure |= bits_of(sure) << lane;
+    const V rise = hn::Set(d, ray.rise), run = hn::Set(d, ray.run), level = hn::Set(d, ray.level);
+    const V f1 = hn::Sub(hn::NegMulAdd(run, arc<kSpace>(chart, one.t), hn::Mul(rise, one.z)), level);
+    const V f2 = hn::Sub(hn::NegMulAdd(run, arc<kSpace>(chart, two.t), hn::Mul(rise, two.z)), level);
+    V steep = hn::Set(d, ray.run_size), bend = zero;  // |m| times the largest slope of atanκ
+    if constexpr (kSpace != Space::euclidean) {
+      V sharp = hn::Set(d, ray.run_size * (0.66f / 8));  // |atan″| ≤ 0.65
+      const V dt = hn::Abs(hn::Sub(one.t, two.t));
+      if constexpr (kSpace == Space::hyperbolic) {  // atanh′ = 1/(1 − t²), atanh″ = 2t/(1 − t²)² < 2/(1 − t²)²
+        const V most = hn::Max(hn::Abs(one.t), hn::Abs(two.t)), slope = by(hn::NegMulAdd(most, most, hn::Set(d, 1.0f)));
+        sharp = hn::Mul(hn::Mul(hn::Set(d, ray.run_size * (2.2f / 8)), most), hn::Mul(slope, slope));
+        steep = hn::Mul(hn::Set(d, 1.05f * ray.run_size), slope);
+      }
+      const V dz = hn::Abs(hn::Sub(one.z, two.z)), dw = hn::Abs(hn::Sub(one.w, two.w));
+      bend = hn::MulAdd(hn::Mul(dt, dt), sharp, hn::Mul(hn::Mul(dz, dw), hn::Set(d, ray.rise * chart.bend_of_height)));
     }
+    const V level_error = hn::Set(d, ray.level_error), rise_blur = hn::Set(d, ray.rise_blur);
+    const V e1 = hn::MulAdd(steep, one.t_error, hn::MulAdd(rise_blur, one.blur, level_error));
+    const V e2 = hn::MulAdd(steep, two.t_error, hn::MulAdd(rise_blur, two.blur, level_error));
+    const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
+    const M signs_sure = hn::Gt(least, zero), opposite = hn::Lt(hn::Mul(f1, f2), zero);
+    M beside = hn::AndNot(opposite, signs_sure), met = hn::And(opposite, signs_sure);
+    if constexpr (kSpace != Space::euclidean) {
+      const M steady = hn::Gt(hn::Abs(hn::Sub(f1, f2)), hn::MulAdd(hn::Set(d, 4.0f), bend, hn::Add(e1, e2)));
+      beside = hn::And(beside, hn::Or(steady, hn::Gt(least, bend)));
+      met = hn::And(met, steady);
+    }
+    verdict.sure |= bits_of(hn::AndNot(unsure, met)) << lane;
+    const M missed = hn::Or(beside, hn::Or(late, hn::Lt(farther, hn::Set(d, ray.start))));
     hn::Store(f1, d, verdict.f_one + lane);
     hn::Store(f2, d, verdict.f_two + lane);
     hn::Store(nearer, d, verdict.nearer + lane);

@@ -126,7 +126,7 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
   const hn::CappedTag<float, 8> d;
   const float extent = chart.extent, ulp = static_cast<float>(kUlp);
   const float margin = 16 * ulp * extent, margin_z = 16 * ulp * std::max(static_cast<float>(walk.height_bound), 0.02f) + 4e-9f * extent;
-  alignas(64) float scale[3][8], near_offset[3][8], far_offset[3][8], at_scaled[3][8], error[3][8], h_0[8];
+  alignas(64) float scale[3][8], near_offset[3][8], far_offset[3][8], h_0[8];
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const float* num[3] = {feet.r, feet.r, feet.c};
     const float* den[3] = {feet.ex, feet.ey, feet.m};
@@ -139,8 +139,6 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
       hn::Store(q, d, scale[a] + i);
       hn::Store(hn::Mul(hn::Add(at, pad), q), d, near_offset[a] + i);
       hn::Store(hn::Mul(hn::Sub(at, pad), q), d, far_offset[a] + i);
-      hn::Store(hn::Mul(at, q), d, at_scaled[a] + i);
-      hn::Store(hn::Abs(hn::Mul(pad, q)), d, error[a] + i);
     }
     hn::Store(hn::MulSub(hn::Load(d, feet.ex + i), hn::Load(d, feet.cy + i), hn::Mul(hn::Load(d, feet.ey + i), hn::Load(d, feet.cx + i))), d, h_0 + i);
   }
@@ -168,12 +166,15 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
       ray.far_offset[a] = far_offset[a][lane];
     }
     ray.slope = scale[2][lane];
-    ray.steepness = std::fabs(ray.slope) * chart.ratio;
     ray.stretch = feet.r[lane];
     ray.near_height = near_offset[2][lane] - s;
     ray.far_height = far_offset[2][lane] - s;
-    ray.height = at_scaled[2][lane] - s;
-    ray.slope_error = error[2][lane] + 16 * ulp * std::fabs(s);
+    ray.rise = feet.c[lane];
+    ray.run = feet.m[lane];
+    ray.run_size = std::fabs(ray.run);
+    ray.level = static_cast<float>(from.c * from.z - from.m * double(s));
+    ray.level_error = ray.rise * (margin_z + 16 * ulp * std::fabs(feet.z[lane])) + ray.run_size * (chart.arc_error + 16 * ulp * std::fabs(s));
+    ray.rise_blur = ray.rise * chart.ratio;
     ray.t_x = feet.ex[lane] * feet.r[lane];
     ray.t_y = feet.ey[lane] * feet.r[lane];
     ray.h_x = -feet.ey[lane];
