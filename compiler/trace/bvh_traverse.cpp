@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "compiler/trace/chart_ray.h"
+#include "compiler/trace/fan-inl.h"
 #include "compiler/trace/judge-inl.h"
 #include "compiler/trace/meet.h"
 #include "compiler/trace/resolve-inl.h"
@@ -49,32 +50,29 @@ HWY_INLINE void sort(Entry& a, Entry& b) {  // the nearer one to b: on top
   b = near;
 }
 
-HWY_INLINE int lowest_bit(std::uint32_t bits) { return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)); }
-
 /// The next node or block, and the others on the stack.
 struct Way {
   std::uint32_t child = 0;
   Entry* top = nullptr;
 };
 
-/// The walk of one ray through one tree, piece by piece, so that several can take turns.
+/// What only rays need that end in double; made once for many.
+struct InDouble {
+  RayPlane plane;
+  BvhHit before;                    ///< the best before anything was tried in double
+};
+
+/// The walk of one ray through one tree. What it finds does not depend on the order in which nodes and blocks come, nor on where it starts: rays
+/// meet the same, bit by bit, alone and in a fan.
 template <Space kSpace, int kTerms, bool kAny, bool kCount>
 struct Walker {
-  ChartRay ray;
-  Pending pending;                  ///< surely met, in double only when the walk is over or another triangle comes too near
-  RayPlane plane;
-  const Ray* source;
-  BvhHit* best;
-  bool planned, exact, found;
-  Entry stack[8 * kDeepest];
-
-  HWY_INLINE Way begin(const Ray& from, BvhHit& hit) {
-    source = &from;
-    best = &hit;
-    planned = exact = found = false;
-    pending.triangle = kNone;
-    return {0, stack};
-  }
+  ChartRay& ray;
+  const Ray& source;
+  BvhHit& best;
+  Pending& pending;                 ///< surely met: in double only when the walk is over, or to compare when another triangle comes too near
+  InDouble& in_double;
+  Entry* const stack;
+  bool exact = false, found = false;
 
   HWY_INLINE bool pop(Way& way) const {
     const std::uint32_t end = order_of(ray.reach);
@@ -88,9 +86,8 @@ struct Walker {
   }
 
   /// Goes on to the nearest child, the others to the stack, the nearer on top. False: nothing is touched.
-  HWY_INLINE bool visit_node(const Walk& walk, Way& way) {
+  HWY_INLINE bool visit_node(const Walk& walk, const Node8& node, Way& way) {
     if constexpr (kCount) ++walk.counts->nodes;
-    const Node8& node = walk.chart->nodes[way.child];
     alignas(32) float enters[8];
     std::uint32_t bits = touched<kTerms>(node, *walk.chart, ray, ray.reach, enters);
     if (bits == 0) return false;
@@ -118,23 +115,33 @@ struct Walker {
     return true;
   }
 
-  /// In double. Makes: whether it is met before the best so far.
-  HWY_INLINE bool meet(const Walk& walk, std::uint32_t triangle, bool sure, double guess) {
-    const auto& v = walk.soup->triangles[triangle];
+  /// In double. Makes: whether it is met before the best so far; of two at the same t the first in the soup.
+  /// In: whether it is surely met and far from the ray's ends (`pends`): then the last word on its point is resolve_many's.
+  HWY_INLINE bool meet(const Walk& walk, const Pending& triangle, bool sure, bool pends) {
+    const auto& v = walk.soup->triangles[triangle.triangle];
     const Vertex* vertices = walk.soup->vertices.data();
-    if (!planned) plane = plane_of(kSpace, *source), planned = true;
     const Vertex* const corners[3] = {vertices + v[0], vertices + v[1], vertices + v[2]};
-    const TriangleHit hit = sure && kSpace != Space::euclidean ? trace::exact::meet_once<kSpace>(plane, corners, best->t, guess)
-                                                               : trace::exact::meet<kSpace>(plane, corners, best->t);
-    if (!hit.found) return false;
-    *best = {triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
+    const double end = found ? std::nextafter(best.t, kEndless) : best.t;
+    const TriangleHit hit = sure && kSpace != Space::euclidean ? trace::exact::meet_once<kSpace>(in_double.plane, corners, end, triangle.guess)
+                                                               : trace::exact::meet<kSpace>(in_double.plane, corners, end);
+    if (!hit.found || (found && hit.t == best.t && triangle.triangle > best.triangle)) return false;
+    best = {triangle.triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
+    pending = triangle;
+    if (!pends) pending.triangle = kNone;
     return found = true;
   }
 
-  HWY_INLINE void resolve(const Walk& walk) {
-    if (pending.triangle == kNone) return;
-    meet(walk, pending.triangle, true, pending.guess);
-    pending.triangle = kNone;
+  /// From here on all is tried in double.
+  HWY_INLINE void begin_exact(const Walk& walk) {
+    if (exact) return;
+    exact = true;
+    in_double = {plane_of(kSpace, source), best};
+    if (pending.triangle != kNone) meet(walk, Pending(pending), true, true);
+  }
+
+  /// If the nearest triangle is still without its point, `best` is as it was before.
+  HWY_INLINE void end() {
+    if (exact && pending.triangle != kNone) best = in_double.before;
   }
 
   /// False: any hit was wanted and is found.
@@ -151,7 +158,8 @@ struct Walker {
       const bool sure = verdict.sure >> lane & 1;
       const float near = verdict.nearer[lane], far = verdict.farther[lane], f = verdict.f_one[lane];
       const float guess = f / (f - verdict.f_two[lane]);
-      if (sure && !exact && near > ray.surely_after && far < ray.surely_before) {
+      const bool pends = sure && near > ray.surely_after && far < ray.surely_before;
+      if (pends && !exact) {
         if constexpr (kAny) {
           found = true;
           return false;
@@ -164,100 +172,63 @@ struct Walker {
           continue;
         }
       }
-      // Two triangles too near to each other, or an end of the ray too near: exact from here on.
-      exact = true;
-      resolve(walk);
-      if (!meet(walk, triangle, sure, guess)) continue;
+      begin_exact(walk);  // two triangles too near to each other, or an end of the ray too near
+      if (!meet(walk, {triangle, guess, near, far}, sure, pends)) continue;
       if constexpr (kAny) return false;
-      ray.reach = std::min(ray.reach, sure ? far : t_of(block, lane, ray, *best));
+      ray.reach = std::min(ray.reach, sure ? far : t_of(block, lane, ray, best));
     }
     return true;
   }
 };
 
-/// One ray: set up and resolved by the kernels of many, so that it gives the same bits alone and in a stream.
+/// Many rays: set up eight at a time, started where all of a fan may touch something, resolved four at a time. A single ray goes the same way,
+/// so that it gives the same bits alone and in a stream.
 template <Space kSpace, int kTerms, bool kAny, bool kCount>
-bool walk_one(const Walk& walk) {
-  Walker<kSpace, kTerms, kAny, kCount> walker;
-  set_up<kSpace>(walk, 0, 1, &walker.ray);
-  if (walker.ray.misses) return false;
-  Way way = walker.begin(*walk.ray, *walk.best);
-  do {
-    bool touches = true;
-    while (touches && !(way.child & kBlock)) touches = walker.visit_node(walk, way);
-    if (touches && !walker.visit_block(walk, way.child)) return true;
-  } while (walker.pop(way));
-  if constexpr (!kAny) resolve_many<kSpace>(walk, 0, 1, &walker.pending);
-  return walker.found;
-}
-
-/// Many rays: set up and resolved eight and four at a time; a few walk in turn, so that one's loads and long chains of arithmetic are waited
-/// for while the others compute.
-template <Space kSpace, int kTerms, bool kAny, bool kCount>
-bool walk_many(const Walk& walk) {
-  constexpr int kTurns = 2;  // more gained nothing: their states fall out of the registers and the first-level cache
-  constexpr std::size_t kBatch = 32;
-  struct Turn {
-    Walker<kSpace, kTerms, kAny, kCount> walker;
-    Way way;
-    std::size_t index;
-    bool active = false;
-  };
-  Turn turns[kTurns];
-  ChartRay rays[kBatch];
-  Pending pending[kBatch];
-  for (std::size_t first = 0; first < walk.count; first += kBatch) {
-    const std::size_t count = std::min(kBatch, walk.count - first);
+bool walk_all(const Walk& walk) {
+  constexpr std::size_t kFewest = 8;  // for which a fan is worth it
+  ChartRay rays[kFan];
+  Pending pending[kFan];
+  InDouble in_double;
+  Entry stack[8 * kDeepest];
+  for (std::size_t first = 0; first < walk.count; first += kFan) {
+    const std::size_t count = std::min(kFan, walk.count - first);
     for (std::size_t i = 0; i < count; i += 8) set_up<kSpace>(walk, first + i, std::min<std::size_t>(8, count - i), rays + i);
-    std::size_t next = 0;
-    const auto refill = [&](Turn& turn) {
-      while (next < count) {
-        const std::size_t i = next++;
-        pending[i].triangle = kNone;
-        if (rays[i].misses) continue;
-        turn.index = i;
-        turn.walker.ray = rays[i];
-        turn.way = turn.walker.begin(walk.ray[first + i], walk.best[first + i]);
-        return true;
-      }
-      return false;
-    };
-    int active = 0;
-    for (Turn& turn : turns) active += turn.active = refill(turn);
-    while (active > 0)
-      for (Turn& turn : turns) {
-        if (!turn.active) continue;
-        bool more = true;
-        if (turn.way.child & kBlock) {
-          more = turn.walker.visit_block(walk, turn.way.child) && turn.walker.pop(turn.way);
-        } else if (!turn.walker.visit_node(walk, turn.way)) {
-          more = turn.walker.pop(turn.way);
-        }
-        if (more) continue;
-        pending[turn.index] = turn.walker.pending;
-        active -= !(turn.active = refill(turn));
-      }
-    resolve_many<kSpace>(walk, first, count, pending);
+    Node8 shared;
+    const Node8* root = walk.chart->nodes.data();
+    if (count >= kFewest) {
+      const FanRoot found = find_root<kSpace>(*walk.chart, rays, count, shared);
+      if (found == FanRoot::nothing) continue;
+      if (found == FanRoot::own) root = &shared;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      pending[i].triangle = kNone;
+      if (rays[i].misses) continue;
+      Walker<kSpace, kTerms, kAny, kCount> walker{rays[i], walk.ray[first + i], walk.best[first + i], pending[i], in_double, stack};
+      Way way{0, walker.stack};
+      bool touches = walker.visit_node(walk, *root, way);
+      do {
+        while (touches && !(way.child & kBlock)) touches = walker.visit_node(walk, walk.chart->nodes[way.child], way);
+        if (touches && !walker.visit_block(walk, way.child)) return true;
+        touches = true;
+      } while (walker.pop(way));
+      walker.end();
+    }
+    if constexpr (!kAny) resolve_many<kSpace>(walk, first, count, pending);
   }
-  return true;
-}
-
-template <Space kSpace, int kTerms, bool kAny, bool kCount>
-bool walk_with(const Walk& walk) {
-  return walk.count == 1 ? walk_one<kSpace, kTerms, kAny, kCount>(walk) : walk_many<kSpace, kTerms, kAny, kCount>(walk);
+  return false;
 }
 
 template <bool kAny, bool kCount>
 bool walk_chart(const Walk& walk) {
   const int terms = walk.chart->terms;
-  if (walk.space == Space::euclidean) return walk_with<Space::euclidean, 1, kAny, kCount>(walk);
+  if (walk.space == Space::euclidean) return walk_all<Space::euclidean, 1, kAny, kCount>(walk);
   if (walk.space == Space::spherical)
-    return terms == 2   ? walk_with<Space::spherical, 2, kAny, kCount>(walk)
-           : terms == 4 ? walk_with<Space::spherical, 4, kAny, kCount>(walk)
-                        : walk_with<Space::spherical, 7, kAny, kCount>(walk);
-  return terms == 3   ? walk_with<Space::hyperbolic, 3, kAny, kCount>(walk)
-         : terms == 5 ? walk_with<Space::hyperbolic, 5, kAny, kCount>(walk)
-                      : walk_with<Space::hyperbolic, 7, kAny, kCount>(walk);
+    return terms == 2   ? walk_all<Space::spherical, 2, kAny, kCount>(walk)
+           : terms == 4 ? walk_all<Space::spherical, 4, kAny, kCount>(walk)
+                        : walk_all<Space::spherical, 7, kAny, kCount>(walk);
+  return terms == 3   ? walk_all<Space::hyperbolic, 3, kAny, kCount>(walk)
+         : terms == 5 ? walk_all<Space::hyperbolic, 5, kAny, kCount>(walk)
+                      : walk_all<Space::hyperbolic, 7, kAny, kCount>(walk);
 }
 
 bool walk_closest(const Walk& walk) { return walk_chart<false, false>(walk); }

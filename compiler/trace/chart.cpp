@@ -172,6 +172,9 @@ void add_leaf_bounds(Space space, Chart& chart) {
   choose_arc(space, chart);
   const double ratio = space == Space::spherical ? 1 / std::cos(chart.radius) : std::cosh(chart.radius);
   chart.ratio = static_cast<float>(1.001 * ratio);
+  const double end = chart.tangent, last_slope = 1 / (1 + geometry::curvature(space) * end * end);
+  chart.last_slope = static_cast<float>(last_slope);
+  chart.sharpest_arc = static_cast<float>(1.01 * (space == Space::spherical ? std::min(0.65, 2 * end) : 2 * end * last_slope * last_slope));
   chart.bend_of_height = static_cast<float>(1.05 * 2 * ratio * double(chart.largest_w) / 8);
 }
 

@@ -23,6 +23,7 @@ struct Chart {
   int arc_terms = 0;                ///< of the leaf test's odd polynomial; 0: the chart is too wide for one
   float arc_poly[7] = {1, 0, 0, 0, 0, 0, 0};  ///< arc of tanκ: atanκ(t) ≈ Σ arc_poly[k]·t^(2k+1) for |t| ≤ tangent
   float arc_error = 0;              ///< bound of its error (or of the general function's), in the float evaluation
+  float last_slope = 1, sharpest_arc = 0;  ///< atanκ′(tangent) and max|atanκ″| up to there
   float bend_of_height = 0;         ///< bound of a height's bend between two crossings, per change of the height and of 1/w (leaf test)
   std::vector<Node8> nodes;         ///< nodes[0] is the root
   std::vector<Block8> blocks;

@@ -39,6 +39,8 @@ HWY_INLINE V odd_polynomial(const Chart& chart, V a, V shift) {
   return hn::MulAdd(a, hn::MulAdd(yy, hn::MulAdd(yy, top, high), low), shift);
 }
 
+HWY_INLINE int lowest_bit(std::uint32_t bits) { return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)); }
+
 /// Which of a node's boxes the ray may touch between `start` and `end`, and where it enters them.
 template <int kTerms>
 HWY_INLINE std::uint32_t touched(const Node8& node, const Chart& chart, const ChartRay& ray, float end, float* HWY_RESTRICT enters) {

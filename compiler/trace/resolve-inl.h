@@ -79,7 +79,7 @@ HWY_INLINE void resolve_four(Quad& q) {
     const V4 speed = hn::Div(twist, hn::MulAdd(pu, pu, hn::Mul(kappa, hn::Mul(vu, vu))));
     const V4 by_slope = hn::Div(one, hn::MulSub(m, speed, hn::Mul(c, dz)));
     V4 g = value();
-    for (int step = 0; step < 2; ++step) {
+    for (int step = 0; step < (kSpace == geometry::Space::euclidean ? 1 : 2); ++step) {  // E²: linear
       const V4 du = hn::Neg(hn::Mul(g, by_slope)), p_old = pu, v_old = vu;
       u = hn::Add(u, du);
       pu = hn::MulAdd(u, dp, pa);

@@ -199,6 +199,45 @@ TEST_CASE("a ray meets the same thing alone and among others, bit by bit", "[tra
   }
 }
 
+TEST_CASE("rays of a fan meet the same things alone and together, bit by bit", "[trace]") {
+  Random random{5};
+  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2), regular_room(Space::hyperbolic, 5, 2), regular_room(Space::hyperbolic, 8, 4), lune(2),
+                           lune(5), hemisphere()}) {
+    auto placed = furnished(room);
+    placed.parts.push_back(torus_knot(room.space, room.corners.size() > 2 ? Point() : at_polar(room.space, 0.4, 1), 0.2, 0.06, 0.5, 60, 8));
+    placed.parts.push_back(soup_of(placed, 2000, 0.03, random));
+    placed.parts.push_back(soup_of(placed, 20, 0.4, random));
+    placed.looks.resize(1);
+    const TraceScene scene = prepare(placed);
+    int different = 0, hits = 0;
+    for (int fan = 0; fan < 60; ++fan) {
+      const double spread = std::pow(10.0, -random.between(0.5, 7));
+      const Point from = random_point(room, random);
+      const Point apart = fan % 3 ? from : random_point(room, random);  // rays from one point, or from along a line
+      Direction towards = random_direction(room.space, from, random, fan % 4 ? 0.3 : 1);
+      std::vector<Ray> rays;
+      for (int i = 0; i < 64; ++i) {
+        const double along = spread * random.unit();
+        const Point at = fan % 3 ? from : geometry::normalised_point(room.space, (1 - along) * from + along * apart);
+        Direction d = towards;
+        d.floor = d.floor + random.between(-spread, spread) * geometry::Ambient{0, -towards.floor.y, towards.floor.x};
+        d.floor = geometry::normalised_tangent(room.space, at, d.floor);
+        d.z += random.between(-spread, spread);
+        rays.push_back(ray_from(room.space, {at, 0.5}, d));
+      }
+      const std::vector<Hit> together = closest(scene, rays);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Hit alone = closest(scene, rays[i]);
+        hits += alone.target == Target::triangle;
+        different += alone.target != together[i].target || alone.t != together[i].t || alone.triangle != together[i].triangle || alone.b[1] != together[i].b[1];
+      }
+    }
+    INFO("curvature " << geometry::curvature(room.space) << ", " << room.corners.size() << " corners, " << hits << " hits");
+    CHECK(hits > 500);
+    CHECK(different == 0);
+  }
+}
+
 TEST_CASE("threads build the tree that one alone does, and walk it at once", "[trace][threads]") {
   auto placed = furnished(regular_room(Space::hyperbolic, 5, 2));
   placed.parts.push_back(torus_knot(Space::hyperbolic, {}, 0.2, 0.06, 0.5, 1000, 20));  // enough triangles for tasks and for parallel binning
