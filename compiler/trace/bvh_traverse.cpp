@@ -182,16 +182,16 @@ struct Walker {
 };
 
 /// Many rays: set up eight at a time, started where all of a fan may touch something, resolved four at a time. A single ray goes the same way,
-/// so that it gives the same bits alone and in a stream.
-template <Space kSpace, int kTerms, bool kAny, bool kCount>
+/// so that it gives the same bits alone and in a stream. In: kMost at a time.
+template <Space kSpace, int kTerms, bool kAny, bool kCount, std::size_t kMost>
 bool walk_all(const Walk& walk) {
   constexpr std::size_t kFewest = 8;  // for which a fan is worth it
-  ChartRay rays[kFan];
-  Pending pending[kFan];
+  ChartRay rays[kMost];
+  Pending pending[kMost];
   InDouble in_double;
   Entry stack[8 * kDeepest];
-  for (std::size_t first = 0; first < walk.count; first += kFan) {
-    const std::size_t count = std::min(kFan, walk.count - first);
+  for (std::size_t first = 0; first < walk.count; first += kMost) {
+    const std::size_t count = std::min(kMost, walk.count - first);
     for (std::size_t i = 0; i < count; i += 8) set_up<kSpace>(walk, first + i, std::min<std::size_t>(8, count - i), rays + i);
     Node8 shared;
     const Node8* root = walk.chart->nodes.data();
@@ -218,17 +218,25 @@ bool walk_all(const Walk& walk) {
   return false;
 }
 
+template <Space kSpace, int kTerms, bool kAny, bool kCount>
+bool walk_with(const Walk& walk) {
+  if constexpr (!kAny && !kCount) {
+    if (walk.count > 1) return walk_all<kSpace, kTerms, kAny, kCount, kFan>(walk);
+  }
+  return walk_all<kSpace, kTerms, kAny, kCount, 1>(walk);
+}
+
 template <bool kAny, bool kCount>
 bool walk_chart(const Walk& walk) {
   const int terms = walk.chart->terms;
-  if (walk.space == Space::euclidean) return walk_all<Space::euclidean, 1, kAny, kCount>(walk);
+  if (walk.space == Space::euclidean) return walk_with<Space::euclidean, 1, kAny, kCount>(walk);
   if (walk.space == Space::spherical)
-    return terms == 2   ? walk_all<Space::spherical, 2, kAny, kCount>(walk)
-           : terms == 4 ? walk_all<Space::spherical, 4, kAny, kCount>(walk)
-                        : walk_all<Space::spherical, 7, kAny, kCount>(walk);
-  return terms == 3   ? walk_all<Space::hyperbolic, 3, kAny, kCount>(walk)
-         : terms == 5 ? walk_all<Space::hyperbolic, 5, kAny, kCount>(walk)
-                      : walk_all<Space::hyperbolic, 7, kAny, kCount>(walk);
+    return terms == 2   ? walk_with<Space::spherical, 2, kAny, kCount>(walk)
+           : terms == 4 ? walk_with<Space::spherical, 4, kAny, kCount>(walk)
+                        : walk_with<Space::spherical, 7, kAny, kCount>(walk);
+  return terms == 3   ? walk_with<Space::hyperbolic, 3, kAny, kCount>(walk)
+         : terms == 5 ? walk_with<Space::hyperbolic, 5, kAny, kCount>(walk)
+                      : walk_with<Space::hyperbolic, 7, kAny, kCount>(walk);
 }
 
 bool walk_closest(const Walk& walk) { return walk_chart<false, false>(walk); }
