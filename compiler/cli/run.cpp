@@ -40,8 +40,12 @@ void add_scene(CLI::App& command, SceneArguments& scene) {
       ->check(CLI::IsMember({"direct", "path"}))->type_name("NAME");
 }
 
+void add_quality(CLI::App& command, SceneArguments& scene, const std::string& help) {
+  command.add_option("--quality", scene.quality, help)->check(CLI::IsMember({"draft", "normal", "fine"}))->type_name("NAME");
+}
+
 void add_compile_options(CLI::App& command, CompileArguments& a) {
-  command.add_option("--quality", a.scene.quality, "How finely light is baked, instead of the scene's: draft, normal or fine")->check(CLI::IsMember({"draft", "normal", "fine"}))->type_name("NAME");
+  add_quality(command, a.scene, "How finely light is baked, instead of the scene's: draft, normal or fine");
   command.add_option("--tolerance", a.tolerance, "Largest error of a bent edge, in pixels of the picture")->capture_default_str()->check(CLI::Range(1e-4, 1e4))->type_name("PX");
   command.add_option("--max-triangles", a.max_triangles, "Never make more triangles than this: the picture's error is let grow until they suffice, the report says how far")->type_name("N");
   command.add_flag("--no-lod", a.no_lod, "Draw far copies in all detail, too");
@@ -115,6 +119,7 @@ void define_render(CLI::App& app, RenderArguments& a, Common& common) {
 void define_trace(CLI::App& app, RenderArguments& a, Common& common) {
   CLI::App* c = app.add_subcommand("trace", "Draw the reference picture: geodesic rays and real mirrors, no copies");
   add_scene(*c, a.compile.scene);
+  add_quality(*c, a.compile.scene, "Paths of each sample for light that surfaces pass on, instead of the scene's: draft (2), normal (8) or fine (32)");
   c->add_option("-o,--output", a.compile.output, "The picture: .png, or .exr with all passes in floating point")->required()->type_name("FILE");
   c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");
   c->add_option("--pass", a.pass, "What to draw; an .exr holds all of them")->capture_default_str()

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import struct
 import subprocess
@@ -140,6 +141,12 @@ with folder() as name:
     report = json.loads(orbc('compile', OCTANT, '-o', where / 'x.glb', '--quiet', '--report', '-').stdout)
     check(report['copies'] == 17 and report['triangles'] > 1000 and report['error_bound_px'] <= 0.5, 'the report: a quarter pixel of bending and one of levels of detail')
     check(json.loads(orbc('compile', OCTANT, '--plan').stdout)['copies'] == 17, 'the plan')
+
+    # the tracer's quality: more paths of passed-on light, less noise
+    def noise(quality):
+        done = orbc('trace', ROOT / 'examples/colours/scene.yaml', '-o', where / 'noisy.png', '--size', '40x30', '--quality', quality)
+        return float(re.search(r'noise ([0-9.]+)/255', done.stderr.decode()).group(1))
+    check(noise('fine') < 0.6 * noise('draft'), 'trace --quality draft is noisier than fine')
 
     # Ctrl-C leaves no half file
     before = sorted(os.listdir(where))
