@@ -16,34 +16,37 @@
 //    Conservative, proof: planes are rounded outwards; the ray's constants are computed in double and rounded once, so a t of the two chart
 //    slabs is wrong by less than a shift of the plane by 8 ulp of the chart's extent, and 16 are added; for |s₀ + …| ≤ radius the polynomial
 //    is within `poly_error`, which is added; beyond it is larger (smaller) than any t in the chart because it increases.
-// 3. Leaves: eight triangles in float, by chart_ray.h and judge-inl.h: the ray's line cuts two edges; t there, against t of the ray at the edge's
-//    height, gives a sign each. With bounds of the rounding and of the curve's bend a triangle is surely missed, surely met once, or a case
-//    for double. The last word is always `exact::meet` in double on the room's own coordinates, so the tree finds exactly what trying all
-//    triangles finds (tests: 0 of 1,000,000 rays differ), and is watertight because `meet` is.
+// 3. Leaves: eight triangles in float, by chart_ray.h and judge-inl.h: the ray's line cuts two edges; how far each crossing lies above the ray,
+//    c·z − m·atanκ(t) − const, gives a sign each. (Compared as t, by tanκ of the height, a flat ray would need tanκ of arguments far beyond the
+//    chart: a quarter of the hits were unsure.) With bounds of the rounding and of the curve's bend a triangle is surely missed, surely met
+//    once, or a case for double. The last word is always in double on the room's own coordinates (`exact::meet`, or resolve-inl.h four at a
+//    time), so the tree finds exactly what trying all triangles finds (tests: 0 of 3,000,000 rays differ), and is watertight because `meet` is.
 // 4. Charts. S² shows less than a half in one gnomonic chart, and far charts of H² lose digits: chart.h makes one chart for each cluster of
 //    triangles (rooms with three and more corners: one; lune and hemisphere: two and more; E²: one). A ray walks through each chart's tree.
-// 5. Many rays at once: set up eight at a time, walked two at a time in turn, resolved four at a time in double (AVX2): about 1.4 times the
-//    rate of single rays, and the same bits as each ray alone, whatever its neighbours are.
+// 5. Many rays at once: set up eight at a time and resolved four at a time in double (AVX2). Up to 64 that go nearly the same way are a fan
+//    (fan-inl.h): what all of them may touch is looked for once, eight boxes deep in the tree become a root of their own. What a ray meets
+//    depends neither on the order of the visits nor on where they begin, so it has the same bits alone, whatever its neighbours are.
 // 6. No number of a tree is subnormal: a plane at the floor's z = 0 rounded outwards, or a product of a zero size, would be, and made pictures
 //    a sixth slower.
 //
 // Figures (torus knot in right-angled rooms of equal size, 480,000 camera rays, per ray):
 //                 12,480 triangles                 1,000,000 triangles
 //         nodes   blocks   put to double   hits    nodes   blocks   put to double   hits
-//   S²    5.83    1.97     0.68            0.64    8.31    1.78     0.66            0.64
+//   S²    5.86    1.99     0.65            0.64    8.31    1.78     0.66            0.64
 //   E²    5.79    1.93     0.63            0.62    8.16    1.72     0.64            0.63
-//   H²    5.62    1.90     0.64            0.61    7.98    1.67     0.63            0.61
-// so a curved ray visits as many nodes as a straight one: the structure costs nothing, only the arithmetic of a node does.
+//   H²    5.63    1.93     0.62            0.61    7.98    1.68     0.63            0.61
+// so a curved ray visits as many nodes as a straight one: the structure costs nothing, only the arithmetic of a node does. In streams a ray
+// visits 1.8 to 1.9 nodes (3.5 to 3.7 of the million), its fan's own root among them, and finding that root costs 0.2 (0.3) nodes a ray.
 //
 // Rays per second over those of Embree 3.13 (rtcIntersect1, AVX2, straight rays, the room's walls by formula on both sides), one thread, rays
 // in tiles of 16 x 16 pixels, medians interleaved in one process (scripts/bench); camera rays | rays between mirrors:
-//                 12,480 triangles            1,000,000 triangles         curved over straight, camera
-//         streams        singly         streams        singly         12,480    1,000,000
-//   S²    0.50 | 0.51    0.36 | 0.36    0.54 | 0.54    0.43 | 0.41    0.68      0.82
-//   E²    0.73 | 0.78    0.47 | 0.48    0.66 | 0.69    0.51 | 0.52
-//   H²    0.51 | 0.54    0.37 | 0.38    0.54 | 0.57    0.43 | 0.43    0.69      0.82
-// Two threads: 1.9 of one (by the busier one's CPU time). Tried without gain: large pages, prefetching nodes, blocks or corners, more than two
-// walks in turn, AVX-512.
+//                 12,480 triangles            1,000,000 triangles         curved over straight, streams
+//         streams        singly         streams        singly         12,480         1,000,000
+//   S²    0.66 | 0.66    0.37 | 0.36    0.67 | 0.66    0.42 | 0.41    0.80 | 0.77    0.85 | 0.82
+//   E²    0.83 | 0.86    0.47 | 0.49    0.79 | 0.80    0.53 | 0.54
+//   H²    0.66 | 0.69    0.37 | 0.37    0.67 | 0.68    0.43 | 0.41    0.80 | 0.79    0.84 | 0.84
+// Two threads: 1.9 to 2.0 of one (by the busier one's CPU time). Tried without gain: large pages, prefetching nodes, blocks or corners, several
+// walks in turn (with fans), AVX-512.
 // Memory 96 to 100 bytes a triangle of a mesh with shared corners (nodes 224 bytes for 8 children, blocks 448 bytes for 8 triangles, corners
 // and indices in double for the last word); a million triangles are built in 0.8 s of CPU time.
 #include <memory>

@@ -1,7 +1,7 @@
 // A fan: rays of a stream that go nearly the same way. What all of them may touch is looked for once, and every ray starts there instead of at
-// the root: a camera's ray then visits two or three nodes instead of six to eight. Frustum culling is old (Reshetov, Soupikov, Hurley, Multi-level
-// ray tracing, 2005: the entry points of a beam); what is new is the frustum of spirals. In the chart, with p along a common direction and q
-// across, a ray is the straight line q(p) at the height z(p) = (level + m·atanκ(α + βp))/c. Then
+// the root: a camera's ray then visits two to four nodes instead of six to eight. Frustum culling is old (Reshetov, Soupikov, Hurley,
+// Multi-level ray tracing, 2005: the entry points of a beam); this is the frustum of spirals. In the chart, with p along a common direction and
+// q across, a ray is the straight line q(p) at the height z(p) = (level + m·atanκ(α + βp))/c. Then
 //  - the largest (smallest) q of the rays is a convex (concave) function of p: it lies below (above) its chord from the first p to the last;
 //  - every z(p) is monotone, so over an interval of p the rays' heights lie between the least and the largest at its ends;
 //  - between knots z(p) leaves its chord by at most h²/8·max|z″|, the same for the least and the largest of the rays.
@@ -34,9 +34,6 @@ struct alignas(32) Fan {
   float by_width = 0;               ///< of the interval between two knots
 };
 
-HWY_INLINE float least_of(V v) { return hn::GetLane(hn::MinOfLanes(D(), v)); }
-HWY_INLINE float most_of(V v) { return hn::GetLane(hn::MaxOfLanes(D(), v)); }
-
 /// Makes: false when the rays go too differently, or too steeply, to be worth it.
 template <Space kSpace>
 HWY_INLINE bool make_fan(const Chart& chart, const ChartRay* rays, std::size_t count, Fan& fan) {
@@ -49,7 +46,7 @@ HWY_INLINE bool make_fan(const Chart& chart, const ChartRay* rays, std::size_t c
   // Per ray: q(p) = q_0 + p·q_1, t(p) = t_0 + p·t_1.
   float q_0[kFan], q_1[kFan], t_0[kFan], t_1[kFan], high_0[kFan], high_1[kFan];
   std::size_t n = 0;
-  float first = extent, last = -extent, bend = 0;
+  float first = extent, last = -extent, bend = 0, highest = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const ChartRay& ray = rays[i];
     if (ray.misses) continue;
@@ -59,6 +56,7 @@ HWY_INLINE bool make_fan(const Chart& chart, const ChartRay* rays, std::size_t c
     q_0[n] = ray.h_0 * by_p, q_1[n] = e_q * by_p;
     t_0[n] = ray.stretch * ray.h_0 * e_q * by_p, t_1[n] = ray.stretch * by_p;
     high_0[n] = ray.level * by_c, high_1[n] = ray.run * by_c;
+    highest = std::max(highest, std::fabs(high_0[n]));
     bend = std::max(bend, std::fabs(high_1[n]) * t_1[n] * t_1[n]);
     const float by_t = e_p / ray.stretch, foot = -ray.h_0 * e_q;
     first = std::min(first, foot + ray.start * by_t);
@@ -82,7 +80,7 @@ HWY_INLINE bool make_fan(const Chart& chart, const ChartRay* rays, std::size_t c
     const float sign = i ? 1.0f : -1.0f, slope = (ends[i][1] - ends[i][0]) / (fan.last - fan.first);
     fan.side[i][0] = sign * (-uy - slope * ux);
     fan.side[i][1] = sign * (ux - slope * uy);
-    fan.side[i][2] = -sign * (ends[i][0] - slope * fan.first) - pad;
+    fan.side[i][2] = -sign * (ends[i][0] - slope * fan.first) - pad - 2e-6f * std::max(std::fabs(ends[i][0]), std::fabs(ends[i][1]));
   }
   // Heights: beyond the chart's radius, where nothing is, arcs go on as tangents, so that z″ is bounded.
   const float tangent = static_cast<float>(chart.tangent);
@@ -105,7 +103,9 @@ HWY_INLINE bool make_fan(const Chart& chart, const ChartRay* rays, std::size_t c
     hn::Store(low, d, fan.low + lane);
     hn::Store(high, d, fan.high + lane);
   }
-  const float off = pad + 1e-5f + (kSpace == Space::euclidean ? 0 : 0.126f * width * width * bend * chart.sharpest_arc + 6 * chart.arc_error);
+  for (int k = 0; k < kKnots; ++k) highest = std::max({highest, std::fabs(fan.low[k]), std::fabs(fan.high[k])});
+  float off = pad + 4e-6f * highest;  // far more than any rounding
+  if constexpr (kSpace != Space::euclidean) off += 0.126f * width * width * bend * chart.sharpest_arc + 6 * chart.arc_error;
   for (int k = 0; k < kKnots; ++k) fan.low[k] -= off, fan.high[k] += off;
   for (int k = 0; k < kKnots; ++k) {
     const int next = std::min(k + 1, kKnots - 1);
@@ -124,7 +124,10 @@ HWY_INLINE std::uint32_t touched_by_fan(const Node8& node, const Fan& fan) {
   const auto least = [&](V a, float fa, V b, float fb) { return hn::MulAdd(bound(0, fa < 0), a, hn::Mul(bound(1, fb < 0), b)); };
   V from = least(ux, fan.ux, uy, fan.uy), to = hn::MulAdd(bound(0, fan.ux >= 0), ux, hn::Mul(bound(1, fan.uy >= 0), uy));
   M inside = hn::And(hn::Ge(to, first), hn::Le(from, last));
-  for (const auto& side : fan.side) inside = hn::And(inside, hn::Le(least(hn::Set(d, side[0]), side[0], hn::Set(d, side[1]), side[1]), hn::Set(d, -side[2])));
+  for (const auto& side : fan.side) {
+    const V across = least(hn::Set(d, side[0]), side[0], hn::Set(d, side[1]), side[1]);
+    inside = hn::And(inside, hn::Le(across, hn::Set(d, -side[2])));
+  }
   V low = hn::Set(d, kNever), high = hn::Set(d, -kNever);
   for (const V end : {hn::Max(from, first), hn::Min(to, last)}) {
     const V knots = hn::Min(hn::Set(d, kKnots - 1.0f), hn::Max(hn::Zero(d), hn::Mul(hn::Sub(end, first), hn::Set(d, fan.by_width))));
@@ -152,7 +155,8 @@ HWY_NOINLINE FanRoot find_root(const Chart& chart, const ChartRay* rays, std::si
   };
   Place open[8];
   int count = 0;
-  for (std::uint32_t bits = touched_by_fan(chart.nodes[0], fan); bits; bits &= bits - 1) open[count++] = {0, static_cast<std::uint32_t>(lowest_bit(bits))};
+  for (std::uint32_t bits = touched_by_fan(chart.nodes[0], fan); bits; bits &= bits - 1)
+    open[count++] = {0, static_cast<std::uint32_t>(lowest_bit(bits))};
   for (int i = 0; i < count;) {
     const std::uint32_t child = chart.nodes[open[i].node].child[open[i].lane];
     if (child & kBlock) {
