@@ -144,7 +144,7 @@ with folder() as name:
 
     # the tracer's quality: more paths of passed-on light, less noise
     def noise(quality):
-        done = orbc('trace', ROOT / 'examples/colours/scene.yaml', '-o', where / 'noisy.png', '--size', '40x30', '--quality', quality)
+        done = orbc('trace', ROOT / 'examples/colours/scene.yaml', '-o', where / 'noisy.png', '--size', '40x30', '--samples', '4', '--quality', quality)
         return float(re.search(r'noise ([0-9.]+)/255', done.stderr.decode()).group(1))
     check(noise('fine') < 0.6 * noise('draft'), 'trace --quality draft is noisier than fine')
 
