@@ -25,6 +25,7 @@ using geometry::Isometry;
 struct ModelPart {
   std::size_t net = 0;
   const Uv* uv = nullptr;
+  bool flat = false;
 };
 
 /// What is the same for all copies.
@@ -84,6 +85,7 @@ bool is_drawn(const Work& work, const PartNet& net, const cover::Copy& copy) {
 struct CopyPart {
   const PartNet* net = nullptr;
   const Uv* uv = nullptr;
+  bool flat = false;
 };
 class CopyParts {
  public:
@@ -96,11 +98,11 @@ class CopyParts {
       const PartNet& net = storey == work.storeys.end() ? work.nets[part.net] : storey->second[part.net]->net;
       if (!is_drawn(work, net, copy)) continue;
       const InWedge place = copy.wedge ? place_in(*copy.wedge, seen, net, work.margin) : InWedge::all;
-      if (place == InWedge::all) parts_.push_back({&net, part.uv});
+      if (place == InWedge::all) parts_.push_back({&net, part.uv, part.flat});
       if (place != InWedge::some) continue;
       // For the eye what is split alike on both sides of a wall is cut at last (cut_as_seen.h).
       own_.push_back(work.options.view == View::eye ? reaching(*copy.wedge, seen, net, *part.uv, work.margin) : clipped(*copy.wedge, seen, net, *part.uv));
-      if (!own_.back()->mesh.triangles.empty()) parts_.push_back({&own_.back()->net, &own_.back()->uv});
+      if (!own_.back()->mesh.triangles.empty()) parts_.push_back({&own_.back()->net, &own_.back()->uv, part.flat});
     }
   }
   [[nodiscard]] auto begin() const { return parts_.begin(); }
@@ -115,10 +117,10 @@ CopyCount count_copy(const Work& work, std::size_t index, std::uint64_t most, st
   CopyCount count;
   std::int64_t bytes = 0;
   const CopyMap map = copy_map(work, work.copies[index]);
-  for (const auto& [part, uv] : CopyParts(work, index)) {
+  for (const auto& [part, uv, flat] : CopyParts(work, index)) {
     const PartNet& net = *part;
     count.vertices += net.points.w.size();
-    const double bound = error_bound(map, work.sight, net);
+    const double bound = flat ? 0 : error_bound(map, work.sight, net);
     if (bound <= 1) {
       count.triangles += net.mesh->triangles.size();
       count.worst = std::max(count.worst, bound);
@@ -147,9 +149,9 @@ class Writer {
     // An odd number of reflections turns triangles inside out, and so does going round the sphere to the far side.
     turned_ = (copy.cover_from_room.reversing != (copy.sheet % 2 == 1)) != (copy.storey.sign < 0);
     std::size_t split = 0;
-    for (const auto& [part, uv] : CopyParts(work, copy_index)) {
+    for (const auto& [part, uv, flat] : CopyParts(work, copy_index)) {
       const PartNet& net = *part;
-      if (error_bound(map_, work.sight, net) <= 1) {
+      if (flat || error_bound(map_, work.sight, net) <= 1) {
         write_points(net.points);
         write_uv(*uv);
         write_triangles(net.mesh->triangles);
@@ -292,7 +294,7 @@ void prepare(Work& work, const place::PlacedRoom& room, const std::vector<Model>
       ORBC_CHECK(part.uv->size(), ==, part.mesh->floor.size());
       const auto [at, is_new] = known.try_emplace(part.mesh, meshes.size());
       if (is_new) meshes.push_back(part.mesh);
-      work.models.back().push_back({at->second, part.uv});
+      work.models.back().push_back({at->second, part.uv, part.flat});
     }
   }
   work.nets.resize(meshes.size());

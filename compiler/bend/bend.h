@@ -23,6 +23,7 @@ struct Model {
   struct Part {
     const place::PlacedMesh* mesh = nullptr;
     const Uv* uv = nullptr;
+    bool flat = false;   ///< its triangles are drawn as they are, with straight edges between their vertices' true images: for what only hides
   };
   std::vector<Part> parts;
 };

@@ -160,7 +160,7 @@ void take(Counts counts, Plan& plan) {
 
 Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options) {
   Plan plan = empty_plan(room);
-  const std::uint64_t each = options.whole ? bytes_per_copy(plan) : static_cast<std::uint64_t>(kBytesPerCopy);
+  const auto each = static_cast<std::uint64_t>(kBytesPerCopy);
   const Integer most = options.max_bytes / each;
   Counts counts;
   if (needs_beams(room)) {

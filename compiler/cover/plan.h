@@ -11,8 +11,7 @@
 namespace orbc::cover {
 
 struct PlanOptions {
-  std::uint64_t max_bytes = std::uint64_t{4} << 30;
-  bool whole = true;      ///< every copy counts with all triangles of the room; else only itself, as the least that it can take
+  std::uint64_t max_bytes = std::uint64_t{4} << 30;   ///< each copy takes kBytesPerCopy at least; its triangles are foreseen by driver/estimate.h
 };
 
 /// What a product takes, without the pictures.
@@ -32,7 +31,7 @@ struct Plan {
 /// Makes:       the number of copies from the growth series, or counted one by one where sizes or plain walls cut the group; copies that
 ///              need beams are unfolded once.
 /// Exact:       copies.
-/// Diagnostics: those of `unfold`; cover.too-much when the product would exceed `max_bytes`: the hint names
+/// Diagnostics: those of `unfold`; cover.too-much when the copies alone would exceed `max_bytes`: the hint names
 ///              the largest max_bounces that fits.
 [[nodiscard]] Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
                                 const PlanOptions& options = {});

@@ -37,7 +37,8 @@ class Search {
     const auto no_look = static_cast<std::uint16_t>(room_.looks.size());
     plain_panels_ = curtains(room_, no_look);
     banded_panels_ = curtains(room_, no_look, bands_of(room_, opened.eye));
-    for (const auto* panels : {&plain_panels_, &banded_panels_})
+    flat_panels_ = curtains(room_, no_look, bands_of(room_, opened.eye), true);
+    for (const auto* panels : {&plain_panels_, &banded_panels_, &flat_panels_})
       for (const place::PlacedMesh& panel : *panels) panel_uv_[&panel].resize(panel.floor.size());
     const bend::Detail detail(opened.eye, options);
     const bend::Extent whole{{}, room_.room.circumradius, 0, room_.height};
@@ -58,7 +59,10 @@ class Search {
     std::vector<std::uint32_t> model_of_copy = fitted.choice.model_of_copy;
     if (means.curtains) {
       const CutOffs cut_offs(room_, opened_.scene.cover, left_out_below(opened_, fitted.left_out_px));
-      (void)hang(cut_offs, fitted.copies, {expected_ ? parts_of(plain_panels_) : std::vector<bend::Model::Part>{}, parts_of(banded_panels_)}, models, model_of_copy);
+      const bool flat = may_be_flat(room_, std::max(opened_.scene.cover.min_pixels, fitted.left_out_px));
+      const Curtains curtains{expected_ ? parts_of(plain_panels_, false) : std::vector<bend::Model::Part>{},
+                              flat ? parts_of(flat_panels_, true) : parts_of(banded_panels_, false)};
+      (void)hang(cut_offs, fitted.copies, curtains, models, model_of_copy);
     }
     const auto bent = bend::bend(room_, models, model_of_copy, fitted.copies, opened_.eye, options_, executor_);
     least_ = bent ? bent->indices.size() / 3 : 0;
@@ -70,9 +74,9 @@ class Search {
   [[nodiscard]] std::uint64_t last_count() const { return least_; }
 
  private:
-  [[nodiscard]] std::vector<bend::Model::Part> parts_of(const std::vector<place::PlacedMesh>& panels) const {
+  [[nodiscard]] std::vector<bend::Model::Part> parts_of(const std::vector<place::PlacedMesh>& panels, bool flat) const {
     std::vector<bend::Model::Part> parts;
-    for (const place::PlacedMesh& panel : panels) parts.push_back({&panel, &panel_uv_.at(&panel)});
+    for (const place::PlacedMesh& panel : panels) parts.push_back({&panel, &panel_uv_.at(&panel), flat});
     return parts;
   }
 
@@ -81,8 +85,8 @@ class Search {
     for (const auto& choice : all.models) {
       models.emplace_back();
       for (std::size_t p = 0; p < choice.size(); ++p) {
-        if (choice[p] == 0) models.back().parts.push_back({&room_.parts[p], &no_uv_[p]});
-        else models.back().parts.push_back({&levels_[p][choice[p] - 1].mesh, &level_uv_.at(&levels_[p][choice[p] - 1])});
+        if (choice[p] == 0) models.back().parts.push_back({&room_.parts[p], &no_uv_[p], false});
+        else models.back().parts.push_back({&levels_[p][choice[p] - 1].mesh, &level_uv_.at(&levels_[p][choice[p] - 1]), false});
       }
     }
     return models;
@@ -98,7 +102,7 @@ class Search {
   const Executor& executor_;
   std::vector<bend::Uv> no_uv_;
   std::map<const Level*, bend::Uv> level_uv_;             // looked up only
-  std::vector<place::PlacedMesh> plain_panels_, banded_panels_;
+  std::vector<place::PlacedMesh> plain_panels_, banded_panels_, flat_panels_;
   std::map<const place::PlacedMesh*, bend::Uv> panel_uv_;
   std::vector<double> sizes_;
   std::uint64_t least_ = 0;

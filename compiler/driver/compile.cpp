@@ -48,7 +48,7 @@ std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock
     models.emplace_back();
     for (std::size_t p = 0; p < levels.size(); ++p) {
       const std::uint32_t part = stock.part_of_level[p][levels[p]];
-      models.back().parts.push_back({&atlas.room.parts[part], &atlas.uv[part]});
+      models.back().parts.push_back({&atlas.room.parts[part], &atlas.uv[part], false});
     }
   }
   return models;
@@ -71,7 +71,7 @@ ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels)
 }
 
 /// Gives the room panels for its mirrors, and a look for each of their colours; where there is none the panels are open. Makes: which parts they are.
-std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<std::optional<scene::Color>>& colors, const std::vector<double>& bands) {
+std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<std::optional<scene::Color>>& colors, const std::vector<double>& bands, bool flat) {
   const std::size_t first = room.looks.size();
   for (const auto& color : colors) {
     place::Look look;
@@ -80,7 +80,7 @@ std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector
     room.looks.push_back(look);
   }
   std::vector<std::size_t> parts;
-  for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(first), bands)) {
+  for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(first), bands, flat)) {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < panel.triangles.size(); ++t)
       if (colors[panel.look[t] - first]) panel.triangles[kept] = panel.triangles[t], panel.look[kept++] = panel.look[t];
@@ -107,7 +107,7 @@ std::optional<Diagnostic> refusal(const Opened& opened, const CompileOptions& op
 /// The copies, once. Each takes at least its bytes.
 Result<std::vector<cover::Copy>> unfolded(const Opened& opened, const CompileOptions& options, const Progress& progress) {
   if (!cover::needs_beams(*opened.room)) {
-    const auto planned = cover::plan(*opened.room, opened.eye, opened.scene.cover, {options.max_memory / 2, false});
+    const auto planned = cover::plan(*opened.room, opened.eye, opened.scene.cover, {options.max_memory / 2});
     if (!planned) return planned.error();
   }
   const auto most = static_cast<std::uint64_t>(static_cast<double>(options.max_memory / 2) / cover::kBytesPerCopy);
@@ -174,9 +174,10 @@ Diagnostics dress(const Opened& opened, const CompileOptions& options, Ready& re
   const bool for_eye = options.bend.view == bend::View::eye, expected = ready.hangs && opened.expected_background;
   const LeftOut left_out = ready.hangs ? left_out_below(opened, ready.left_out_px) : LeftOut{};
   if (for_eye) ready.beyond = look(opened, ready, expected, left_out, purpose, executor);
+  const bool flat = may_be_flat(*opened.room, std::max(opened.scene.cover.min_pixels, ready.left_out_px));
   std::vector<std::size_t> plain, banded;
-  if (expected) plain = add_curtains(stock.room, {ready.beyond.color}, {});
-  if (left_out) banded = add_curtains(stock.room, ready.beyond.by_height, bands_of(*opened.room, opened.eye));
+  if (expected) plain = add_curtains(stock.room, {ready.beyond.color}, {}, false);
+  if (left_out) banded = add_curtains(stock.room, ready.beyond.by_height, bands_of(*opened.room, opened.eye), flat);
   report(progress, "atlas", 0, 0);
   PaintOptions painting = options.paint;
   painting.highlights = painting.highlights && for_eye;
@@ -186,12 +187,12 @@ Diagnostics dress(const Opened& opened, const CompileOptions& options, Ready& re
   ready.painted = std::move(painted).value();
   ready.models = models_of(ready.painted.atlas, stock, ready.choice);
   add_highlights(ready.painted, ready.models, ready.choice.model_of_copy);
-  const auto panels = [&](const std::vector<std::size_t>& parts) {
+  const auto panels = [&](const std::vector<std::size_t>& parts, bool unsplit) {
     std::vector<bend::Model::Part> of;
-    for (const std::size_t i : parts) of.push_back({&ready.painted.atlas.room.parts[i], &ready.painted.atlas.uv[i]});
+    for (const std::size_t i : parts) of.push_back({&ready.painted.atlas.room.parts[i], &ready.painted.atlas.uv[i], unsplit});
     return of;
   };
-  ready.curtains = hang(CutOffs(*opened.room, opened.scene.cover, left_out), ready.copies, {panels(plain), panels(banded)}, ready.models, ready.choice.model_of_copy);
+  ready.curtains = hang(CutOffs(*opened.room, opened.scene.cover, left_out), ready.copies, {panels(plain, false), panels(banded, flat)}, ready.models, ready.choice.model_of_copy);
   return {};
 }
 

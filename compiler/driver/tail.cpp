@@ -218,9 +218,9 @@ std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& ey
 
 namespace {
 
-/// A panel on a wall: columns of pieces, since walls of S² are long, and rows of bands.
+/// A panel on a wall: columns of pieces, since walls may be long and long triangles are split into many, and rows of bands.
 place::PlacedMesh wall_panel(const place::PlacedRoom& room, const place::PlacedMirror& mirror, double bottom, double top, std::uint16_t first_look,
-                             const std::vector<double>& bands) {
+                             const std::vector<double>& bands, bool flat) {
   place::PlacedMesh panel;
   panel.kind = place::PartKind::wall, panel.wall = mirror.wall;
   std::vector<double> heights{bottom};
@@ -230,7 +230,7 @@ place::PlacedMesh wall_panel(const place::PlacedRoom& room, const place::PlacedM
     if (to > heights.back()) heights.push_back(to), looks.push_back(static_cast<std::uint16_t>(first_look + b));
   }
   const double length = mirror.span[1] - mirror.span[0];
-  const auto pieces = static_cast<std::uint32_t>(std::clamp(std::ceil(length), 1.0, 64.0));
+  const auto pieces = flat ? 1U : static_cast<std::uint32_t>(std::clamp(std::ceil(length), 1.0, 64.0));
   const auto rows = static_cast<std::uint32_t>(heights.size());
   for (std::uint32_t k = 0; k <= pieces; ++k) {
     const geometry::Point p = room::point_on_wall(room.room, mirror.wall, mirror.span[0] + length * k / pieces);
@@ -259,7 +259,7 @@ place::PlacedMesh level_panel(const place::PlacedRoom& room, bool floor, std::ui
 
 }  // namespace
 
-std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands) {
+std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands, bool flat) {
   std::vector<place::PlacedMesh> panels;
   const bool stacked = std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; });
   for (const place::PlacedMirror& mirror : room.mirrors) {
@@ -267,13 +267,18 @@ std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint
       // Into floor and ceiling, which hide it there: their edges are split otherwise, and nothing shall shine through between.
       const double bottom = mirror.height[0] - (stacked || mirror.height[0] > 0 ? 0 : kInto * room.height);
       const double top = mirror.height[1] + (stacked || mirror.height[1] < room.height ? 0 : kInto * room.height);
-      panels.push_back(wall_panel(room, mirror, bottom, top, first_look, bands));
+      panels.push_back(wall_panel(room, mirror, bottom, top, first_look, bands, flat));
     } else {
       panels.push_back(level_panel(room, mirror.wall == -1, first_look));
     }
     panels.back().name = "curtain";
   }
   return panels;
+}
+
+bool may_be_flat(const place::PlacedRoom& room, double pixels) {
+  constexpr double kMost = 8;   // of larger ones the step at the floor's edge would be seen
+  return room.room.space != geometry::Space::spherical && pixels <= kMost;
 }
 
 CutOffs::CutOffs(const place::PlacedRoom& room, const scene::CoverSpec& spec, LeftOut left_out) : room_(room), spec_(spec), left_out_(std::move(left_out)) {

@@ -39,8 +39,13 @@ struct Beyond {
 [[nodiscard]] Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor);
 
 /// A panel in each mirror (parallel to the room's): what is drawn where nothing lies behind it. Each band of heights between `bands` has a look of its
-/// own: first_look, first_look + 1, … from the floor up.
-[[nodiscard]] std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands = {});
+/// own: first_look, first_look + 1, … from the floor up. `flat`: of as few triangles as that takes, to be drawn without splits.
+[[nodiscard]] std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands = {},
+                                                      bool flat = false);
+
+/// Whether panels that hide copies of so many pixels may be flat. Seen from the eye a flat panel fills the same bearings as the wall, whose image bulges
+/// towards the eye, and nothing else lies there: only the edge of the floor before it does not end at it, which it hides by reaching into the floor.
+[[nodiscard]] bool may_be_flat(const place::PlacedRoom& room, double pixels);
 
 /// Where panels get another colour: what one sees above the height of the eye goes up, what one sees below it goes down. None in a room of storeys.
 [[nodiscard]] std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& eye);

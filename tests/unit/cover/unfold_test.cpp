@@ -204,8 +204,8 @@ TEST_CASE("the plan counts exactly and names what fits", "[cover]") {
   CHECK(small->copies == 166);
   CHECK(small->triangles == 166 * 150);
   CHECK(small->vertices == 166 * 100);
-  // 100 vertices and 150 triangles a copy are 4000 bytes; 166 copies fit into a million bytes, those of five bounces do not.
-  const auto planned = cover::plan(room, eye, {1000000, 0, 0, {}}, {1'000'000});
+  // A copy takes 200 bytes itself, whatever is drawn of it: 166 copies fit into 40,000, those of five bounces do not.
+  const auto planned = cover::plan(room, eye, {1000000, 0, 0, {}}, {40'000});
   REQUIRE(!planned);
   CHECK(planned.error().front().code == "cover.too-much");
   CHECK(planned.error().front().hint == "max_bounces: 4 fits");
@@ -217,7 +217,7 @@ TEST_CASE("the plan counts exactly and names what fits", "[cover]") {
     closed.mirrors.pop_back();
     return closed;
   }();
-  const auto walked = cover::plan(plain, eye, {1000, 0, 0, {}}, {1'000'000});
+  const auto walked = cover::plan(plain, eye, {1000, 0, 0, {}}, {40'000});
   REQUIRE(!walked);
   CHECK(walked.error().front().code == "cover.too-much");
   CHECK(cover::plan(plain, eye, {4, 0, 0, {}})->copies == copies_of(plain, {4, 0, 0, {}}).size());
