@@ -211,3 +211,21 @@ TEST_CASE("each copy is drawn from its own model, and models share what they hav
                      mixed->positions.begin() + static_cast<std::ptrdiff_t>(b.first_vertex)));
   }
 }
+
+TEST_CASE("a flat part is drawn as it is", "[bend]") {
+  const auto room = regular_room(5, 2);
+  const auto uv = plain_uv(room);
+  const auto copies = copies_of(room, 1);
+  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  BendOptions fine;
+  fine.tolerance_px = 0.01;
+  Model model = whole_model(room, uv);
+  std::size_t triangles = 0;
+  for (Model::Part& part : model.parts) part.flat = true;
+  for (const auto& part : room.parts) triangles += part.triangles.size();
+  const auto flat = bend::bend(room, {model}, {}, {copies.front()}, eye, fine, serial_executor());
+  const auto split = bend::bend(room, uv, {copies.front()}, eye, fine, serial_executor());
+  REQUIRE((flat.has_value() && split.has_value()));
+  CHECK(flat->indices.size() == 3 * triangles);
+  CHECK(split->indices.size() > 3 * triangles);
+}

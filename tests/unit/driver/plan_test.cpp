@@ -54,6 +54,32 @@ TEST_CASE("the plan foresees copies exactly, and triangles, vertices and bytes w
   }
 }
 
+TEST_CASE("the plan foresees panels and budgets as well", "[driver]") {
+  const Executor executor = driver::parallel_executor();
+  const int which = GENERATE(0, 1, 2, 3);
+  auto opened = open_or_fail(std::string(ORBC_SOURCE_DIR) + (which == 3 ? "/tests/scenes/verify/pentagon-brick.yaml" : "/tests/bench/scale.yaml"));
+  driver::CompileOptions options;
+  opened.scene.cover.max_bounces = which == 3 ? 4 : 34;
+  opened.scene.cover.min_pixels = which == 2 ? 0 : 3;
+  if (which == 1) opened.expected_background = true;
+  if (which >= 2) options.budget = 60'000;
+  const auto planned = driver::plan(opened, options, executor);
+  const auto compiled = driver::compile(opened, options, executor);
+  REQUIRE(planned);
+  REQUIRE(compiled);
+  const driver::Report& r = compiled->report;
+  INFO(which << ": " << planned->triangles << " planned, " << r.triangles << " made, " << r.curtains << " panels");
+  CHECK(planned->copies == r.copies);
+  CHECK(near(planned->triangles, static_cast<double>(r.triangles)));
+  CHECK(near(planned->vertices, static_cast<double>(r.vertices)));
+  if (which < 2) CHECK(r.curtains > 0);
+  if (options.budget) CHECK(r.triangles <= *options.budget);
+  // What a budget left out is said.
+  const bool said = std::any_of(compiled->notes.begin(), compiled->notes.end(), [](const Diagnostic& note) { return note.code == "driver.copies-left-out"; });
+  CHECK(said == (r.left_out > 0));
+  if (r.left_out > 0) CHECK((r.curtains > 0 || r.curtains_dropped));
+}
+
 TEST_CASE("few copies tell of all", "[driver]") {
   const Executor executor = driver::parallel_executor();
   for (const std::string& path : rooms()) {
