@@ -69,6 +69,32 @@ place::PlacedRoom furnished_room(const char* notation, bool lamp, scene::Scene& 
 
 }  // namespace
 
+TEST_CASE("clear glass in a room of one colour cannot be seen: what it reflects and lets through is all there is", "[render]") {
+  for (const char* notation : {"*222", "*2222", "*22222"}) {
+    scene::Scene s = scene::default_scene(*notation::parse(notation));
+    scene::Material light;
+    light.kind = scene::MaterialKind::emissive;
+    light.color = {0.5, 0.25, 1};
+    s.room.floor.material = s.room.ceiling.material = light;
+    for (scene::Wall& wall : s.room.walls) wall.material = light, wall.mirrors.clear();
+    scene::Object ball;
+    ball.shape = scene::SphereSpec{0.15};
+    ball.material.emplace().kind = scene::MaterialKind::glass;
+    ball.material->color = {1, 1, 1};
+    ball.place.floor = scene::AtPolar{0.25, Angle::from_degrees(20)};
+    s.objects = {ball};
+    const place::PlacedRoom room = place::furnish(s, *room::realise(s.orbifold))->room;
+    const render::Film film = render::draw(trace::prepare(room), eye_in(room), {}, serial_executor());
+    int through = 0;
+    for (std::size_t i = 0; i < film.color.size(); ++i) {
+      through += film.object[i] >= 0 && room.parts[static_cast<std::size_t>(film.object[i])].kind == place::PartKind::object;
+      CHECK(film.color[i].b <= 1 + 1e-12);
+      CHECK(film.color[i].b > 0.97);
+    }
+    CHECK(through > 5);
+  }
+}
+
 TEST_CASE("drawn in streams the film is that of single rays, bit by bit", "[render]") {
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const bool lamp : {false, true}) {
