@@ -49,6 +49,11 @@ with folder() as name:
     done = orbc('chek', OCTANT)
     check(done.returncode == 2 and b'did you mean `check`' in done.stderr, 'a misspelt command is called by its name, with the nearest one')
 
+    lit = where / 'lit.yaml'
+    lit.write_text('orbc: 1\norbifold: "*2222"\nlights: [{at: {polar: [0, 0deg], z: 0.8}}]\ncover: {max_bounces: 1}\n')
+    done = orbc('verify', lit, '--size', '32x24', '--quality', 'draft', '--threshold', '1')
+    check(done.returncode == 1 and b'--within 4' in done.stderr, 'verify tells how to compare a lit scene that differs')
+
     # what is known of an orbifold
     facts = json.loads(orbc('info', '*237', '--json', '--max-length', '37').stdout)
     check(facts['chi'] == '-1/84' and facts['space'] == 'hyperbolic' and facts['copies_per_length'][37] == 2818 and abs(facts['growth_rate'] - 1.17628081825991750) < 1e-15, 'info *237')
