@@ -126,8 +126,10 @@ def load(path, name):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     addon_utils.enable('io_scene_gltf2')
     addon_utils.enable('cycles')
+    with open(path, 'rb') as file:
+        lit = b'"NORMAL"' in file.read()  # only what lamps light has normals
     try:
-        result = bpy.ops.import_scene.gltf(filepath=path, import_shading='FLAT')
+        result = bpy.ops.import_scene.gltf(filepath=path, import_shading='NORMALS' if lit else 'FLAT')
     except RuntimeError as error:
         raise Failure(1, f'Blender cannot import {name}: {str(error).strip()}') from None
     if result != {'FINISHED'}:
@@ -136,6 +138,8 @@ def load(path, name):
     if not cameras:
         raise Failure(1, f'{name} has no camera')
     bpy.context.scene.camera = cameras[0]
+    for light in bpy.data.lights:
+        light.shadow_soft_size = light.get('orbc_radius', 0)  # the importer leaves Blender's quarter of a metre
     return cameras[0].data
 
 
@@ -182,7 +186,9 @@ def set_render(scene, options, picture_size):
     cycles.use_adaptive_sampling = False
     cycles.use_denoising = False
     cycles.pixel_filter_type = 'BOX'  # with one sample: the pixel's centre
-    cycles.max_bounces = 0            # unlit meshes shine by themselves
+    cycles.max_bounces = 0            # unlit meshes shine by themselves, others by lamps alone
+    cycles.light_sampling_threshold = 0  # else dim lamps are asked by chance
+    cycles.transparent_max_bounces = 256  # holes behind holes
 
 
 def deliver(picture, out):

@@ -42,6 +42,8 @@ struct SceneArguments {
   std::string projection;           ///< empty = the scene's
   bool expected_background = false;
   std::string integrator;           ///< direct, path; empty = the scene's
+  std::string atlas;                ///< 8, 16, exr; empty = the scene's
+  std::string lights;               ///< baked, native; empty = the scene's
   std::string quality;              ///< draft, normal, fine; empty = the scene's
 };
 struct CompileArguments {

@@ -88,6 +88,8 @@ int compile(const CompileArguments& a, const Common& common) {
   const auto opened = driver::open_scene(a.scene.scene, overrides_of(a.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;
   print(opened->notes, common);
+  if (opened->scene.bake.atlas == scene::AtlasDepth::exr && format.substr(0, 2) == "gl")
+    return print({make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR", "use `atlas: 16` (--atlas 16), or write .pov", opened->scene.span)}, common), kSceneWrong;
   if (format == "svg") return write_tiling(*opened, a, common);
 
   ProgressBar bar(!common.quiet && stderr_is_terminal());
@@ -100,7 +102,11 @@ int compile(const CompileArguments& a, const Common& common) {
   }
   const auto compiled = driver::compile(*opened, options, executor, bar.progress());
   if (!compiled) return bar.clear(), print(compiled.error(), common), kSceneWrong;
-  if (!compiled->notes.empty()) bar.clear(), print(compiled->notes, common);
+  bar.clear();
+  print(compiled->notes, common);
+  if (compiled->product.native && format != "pov")
+    print({make_warning("gltf.native-lights-shared", "lamps of glTF are points and cones without size that light every copy, not their own alone; ambient light is left out",
+                        "draw it with POV-Ray, or bake the light (`lights: baked`)")}, common);
   report(bar.progress(), "writing", 0, 0);
   write_files(exported(compiled->product, format, a.output, a.nodes_per_copy), a.output);
   if (!a.report.empty()) write_output(a.report, driver::report_json(*compiled));

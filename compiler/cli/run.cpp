@@ -46,6 +46,10 @@ void add_quality(CLI::App& command, SceneArguments& scene, const std::string& he
 
 void add_compile_options(CLI::App& command, CompileArguments& a) {
   add_quality(command, a.scene, "How finely light is baked, instead of the scene's: draft, normal or fine");
+  command.add_option("--atlas", a.scene.atlas, "How finely the atlas holds colours, instead of the scene's: 8 or 16 bits (PNG), or exr (half floats)")
+      ->check(CLI::IsMember({"8", "16", "exr"}))->type_name("DEPTH");
+  command.add_option("--lights", a.scene.lights, "Who lights exports, instead of the scene's: baked (orbc, along geodesics) or native (the renderer's own lamps; true in flat rooms)")
+      ->check(CLI::IsMember({"baked", "native"}))->type_name("NAME");
   command.add_option("--tolerance", a.tolerance, "Largest error of a bent edge, in pixels of the picture")->capture_default_str()->check(CLI::Range(1e-4, 1e4))->type_name("PX");
   command.add_option("--max-triangles", a.max_triangles, "Never make more triangles than this: the picture's error is let grow until they suffice, the report says how far")->type_name("N");
   command.add_flag("--no-lod", a.no_lod, "Draw far copies in all detail, too");

@@ -76,6 +76,11 @@ driver::Overrides overrides_of(const SceneArguments& arguments) {
   if (arguments.projection == "cylinder") overrides.projection = scene::Projection::cylinder;
   if (arguments.integrator == "direct") overrides.integrator = scene::Integrator::direct;
   if (arguments.integrator == "path") overrides.integrator = scene::Integrator::path;
+  if (arguments.atlas == "8") overrides.atlas = scene::AtlasDepth::eight;
+  if (arguments.atlas == "16") overrides.atlas = scene::AtlasDepth::sixteen;
+  if (arguments.atlas == "exr") overrides.atlas = scene::AtlasDepth::exr;
+  if (arguments.lights == "baked") overrides.lights = scene::LightsBy::baked;
+  if (arguments.lights == "native") overrides.lights = scene::LightsBy::native;
   if (arguments.quality == "draft") overrides.quality = scene::BakeQuality::draft;
   if (arguments.quality == "normal") overrides.quality = scene::BakeQuality::normal;
   if (arguments.quality == "fine") overrides.quality = scene::BakeQuality::fine;

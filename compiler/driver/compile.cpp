@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -16,9 +18,11 @@
 #include "compiler/driver/estimate.h"
 #include "compiler/driver/budget.h"
 #include "compiler/driver/levels.h"
+#include "compiler/driver/native.h"
 #include "compiler/driver/tail.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/notation/print.h"
+#include "compiler/place/texel.h"
 
 namespace orbc::driver {
 namespace {
@@ -128,6 +132,7 @@ struct Ready {
   bool curtains_dropped = false;
   LevelTally tally;
   Beyond beyond;
+  std::vector<Shine> shine;     ///< per copy, where what glows has copies of its own
 };
 
 /// What is done for the product itself, and left undone where only its triangles are asked for.
@@ -158,22 +163,34 @@ Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, R
   return {};
 }
 
-/// What lies beyond the cover's end. Where only a weight is asked for, the room need not be looked at closely.
-Beyond look(const Opened& opened, const Ready& ready, bool expected, const LeftOut& left_out, Purpose purpose, const Executor& executor) {
+/// Radiance as it is shown: what the twin of a lit scene draws as it is.
+void show(double exposure, Beyond& beyond) {
+  beyond.color = exposure * beyond.color;
+  for (auto& color : beyond.by_height)
+    if (color) color = exposure * *color;
+}
+
+/// What lies beyond the cover's end. In: as in `make`. Where only a weight is asked for, the room need not be looked at closely.
+Beyond look(const Opened& opened, const Opened* lit, const Ready& ready, bool expected, const LeftOut& left_out, Purpose purpose, const Executor& executor) {
   constexpr double kRough = 0.004;   // of the room's radius
   const std::vector<double> bands = left_out ? bands_of(*opened.room, opened.eye) : std::vector<double>{};
   Beyond nothing{0, 0, opened.scene.cover.background, std::vector<std::optional<scene::Color>>(bands.size() + 1, scene::Color{})};
   if (purpose == Purpose::plan) return nothing;
-  if (expected || left_out) return look_beyond(opened, *opened.room, {expected, left_out, bands}, executor);
+  if (expected || left_out) {
+    const Opened& seen = lit ? *lit : opened;
+    Beyond beyond = look_beyond(seen, *seen.room, {expected, left_out, bands}, executor);
+    if (lit) show(lit->scene.exposure, beyond);
+    return beyond;
+  }
   return look_beyond(opened, rough(*opened.room, ready.levels, kRough * opened.room->room.circumradius), {}, executor);
 }
 
 /// Colours and models: of parts, levels, highlights and panels.
-Diagnostics dress(const Opened& opened, const CompileOptions& options, Ready& ready, Purpose purpose, const Executor& executor, const Progress& progress) {
+Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions& options, Ready& ready, Purpose purpose, const Executor& executor, const Progress& progress) {
   Stock stock = stock_of(*opened.room, ready.levels, ready.choice);
   const bool for_eye = options.bend.view == bend::View::eye, expected = ready.hangs && opened.expected_background;
   const LeftOut left_out = ready.hangs ? left_out_below(opened, ready.left_out_px) : LeftOut{};
-  if (for_eye) ready.beyond = look(opened, ready, expected, left_out, purpose, executor);
+  if (for_eye) ready.beyond = look(opened, lit, ready, expected, left_out, purpose, executor);
   const bool flat = may_be_flat(*opened.room, std::max(opened.scene.cover.min_pixels, ready.left_out_px));
   std::vector<std::size_t> plain, banded;
   if (expected) plain = add_curtains(stock.room, {ready.beyond.color}, {}, false);
@@ -182,6 +199,7 @@ Diagnostics dress(const Opened& opened, const CompileOptions& options, Ready& re
   PaintOptions painting = options.paint;
   painting.highlights = painting.highlights && for_eye;
   painting.lit = purpose == Purpose::product;
+  painting.deep = opened.scene.bake.atlas != scene::AtlasDepth::eight;
   auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), light::bake_options(opened.scene.bake), painting, executor, progress);
   if (!painted) return painted.error();
   ready.painted = std::move(painted).value();
@@ -196,7 +214,7 @@ Diagnostics dress(const Opened& opened, const CompileOptions& options, Ready& re
   return {};
 }
 
-Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOptions& options, Purpose purpose, const Executor& executor, const Progress& progress) {
+Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const Opened* lit, const CompileOptions& options, Purpose purpose, const Executor& executor, const Progress& progress) {
   auto ready = std::make_unique<Ready>();   // models point into it
   report(progress, "unfolding", 0, 0);
   if (const auto no = refusal(opened, options, {})) return *no;
@@ -207,7 +225,7 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const CompileOpti
   ready->bending = options.bend;
   ready->bending.colours_vary = options.bend.colours_vary || light::needs_bake(opened.scene, *opened.room);
   if (auto wrong = choose_detail(opened, options, *ready, executor, progress); !wrong.empty()) return wrong;
-  if (auto wrong = dress(opened, options, *ready, purpose, executor, progress); !wrong.empty()) return wrong;
+  if (auto wrong = dress(opened, lit, options, *ready, purpose, executor, progress); !wrong.empty()) return wrong;
   return ready;
 }
 
@@ -224,6 +242,31 @@ Result<cover::Plan> estimated(const Opened& opened, const CompileOptions& option
   return estimate(*opened.room, opened.eye, ready.copies, opened.scene.cover.max_bounces, options.max_memory / 2, bend_some);
 }
 
+/// Draws what glows, and what belongs to lamps, as copies of their own behind the others: the parts of every model are parted.
+void part_what_glows(Ready& ready) {
+  const std::size_t whole = ready.copies.size(), models = ready.models.size();
+  const place::PlacedRoom& room = ready.painted.atlas.room;
+  std::array<std::vector<bend::Model>, 3> parted;
+  for (std::vector<bend::Model>& own : parted) own.resize(models);
+  for (std::size_t m = 0; m < models; ++m)
+    for (const bend::Model::Part& part : ready.models[m].parts) parted[static_cast<std::size_t>(shine_of(room, *part.mesh))][m].parts.push_back(part);
+  ready.models = std::move(parted[0]);
+  ready.shine.assign(whole, Shine::lit);
+  for (const Shine shine : {Shine::glowing, Shine::lamp}) {
+    std::vector<bend::Model>& own = parted[static_cast<std::size_t>(shine)];
+    const auto first = static_cast<std::uint32_t>(ready.models.size());
+    for (std::size_t c = 0; c < whole; ++c) {
+      const std::uint32_t model = ready.choice.model_of_copy[c];
+      if (own[model].parts.empty()) continue;
+      ready.copies.push_back(ready.copies[c]);
+      ready.shine.push_back(shine);
+      ready.tally.level_of_copy.push_back(ready.tally.level_of_copy[c]);
+      ready.choice.model_of_copy.push_back(first + model);
+    }
+    std::move(own.begin(), own.end(), std::back_inserter(ready.models));
+  }
+}
+
 /// Whether the copies may take more than is allowed; splitting multiplies their triangles, but not by this.
 bool may_exceed(const CompileOptions& options, const Ready& ready) {
   constexpr double kSplit = 32;
@@ -238,10 +281,12 @@ struct Made {
   bend::BentCover bent;
 };
 
-Result<Made> make(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
-  auto prepared = get_ready(opened, options, Purpose::product, executor, progress);
+/// In: `lit`: the scene whose lamps are to be hung into the product, opened is then its twin; or none.
+Result<Made> make(const Opened& opened, const Opened* lit, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+  auto prepared = get_ready(opened, lit, options, Purpose::product, executor, progress);
   if (!prepared) return prepared.error();
   Ready& ready = **prepared;
+  if (lit) part_what_glows(ready);
   if (may_exceed(options, ready))
     if (const auto planned = estimated(opened, options, ready, executor); !planned) return planned.error();
   auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending, executor, progress);
@@ -251,11 +296,11 @@ Result<Made> make(const Opened& opened, const CompileOptions& options, const Exe
 
 /// The same, never above the budget. That is met before there are colours; a baked picture cuts surfaces into blocks, whose triangles may be split in
 /// another order, and then a few more may come of it.
-Result<Made> make_within(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+Result<Made> make_within(const Opened& opened, const Opened* lit, const CompileOptions& options, const Executor& executor, const Progress& progress) {
   constexpr int kTries = 4;
   CompileOptions tried = options;
   for (int i = 0;; ++i) {
-    auto made = make(opened, tried, executor, progress);
+    auto made = make(opened, lit, tried, executor, progress);
     if (!made || !options.budget || options.bend.view != bend::View::eye) return made;
     const std::uint64_t triangles = made->bent.indices.size() / 3;
     if (triangles <= *options.budget) return made;
@@ -284,9 +329,13 @@ Product product_of(const Opened& opened, const CompileOptions& options, Ready& r
   product.eye = opened.eye;
   product.background = opened.scene.cover.background;
   product.atlas = std::move(ready.painted.atlas.image);
+  product.deep_atlas = std::move(ready.painted.atlas.deep);
+  product.depth = opened.scene.bake.atlas;
+  product.masked = place::has_holes(*opened.room);
   product.blended_atlas = ready.painted.baked;
   product.copies = drawn(ready.copies, bent.copies, opened.eye);
   for (std::size_t i = 0; i < product.copies.size(); ++i) product.copies[i].level = ready.tally.level_of_copy[i];
+  for (std::size_t i = 0; i < ready.shine.size(); ++i) product.copies[i].shine = ready.shine[i];
   product.positions = std::move(bent.positions);
   product.uv = std::move(bent.uv);
   product.indices = std::move(bent.indices);
@@ -296,7 +345,8 @@ Product product_of(const Opened& opened, const CompileOptions& options, Ready& r
 
 Report report_of(const Opened& opened, const Ready& ready, const Product& product, double bend_error_px) {
   Report r;
-  r.copies = product.copies.size(), r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
+  r.copies = static_cast<std::uint64_t>(std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit; }));
+  r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
   r.error_bound_px = bend_error_px + ready.choice.error_px;
   r.highlights = ready.painted.highlights.counts;
   r.weight_lost = ready.beyond.weight_lost, r.weight_merged = ready.beyond.weight_merged;
@@ -306,6 +356,7 @@ Report report_of(const Opened& opened, const Ready& ready, const Product& produc
   r.curtains = ready.curtains, r.curtains_dropped = ready.curtains_dropped;
   std::set<std::string> words;
   for (const DrawnCopy& copy : product.copies) {
+    if (copy.shine != Shine::lit) continue;
     words.insert(cover::to_string(copy.word));
     r.beams += copy.wedge ? 1 : 0;
     r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
@@ -319,18 +370,27 @@ Report report_of(const Opened& opened, const Ready& ready, const Product& produc
 }  // namespace
 
 Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
-  auto made = make_within(opened, options, executor, progress);
+  const bool native = lit_natively(opened.scene);
+  if (native && options.bend.view != bend::View::eye) {
+    return make_error("driver.native-view", "lamps of the renderer's own hang where one eye sees them: --view disk has none", "bake the light (`lights: baked`), or leave out --view disk",
+                      opened.scene.span);
+  }
+  auto made = native ? make_within(unlit_twin(opened), &opened, options, executor, progress) : make_within(opened, nullptr, options, executor, progress);
   if (!made) return located(made.error(), opened.scene.span);
   Compiled compiled;
   const double bend_error_px = made->bent.error_bound_px;
   compiled.product = product_of(opened, options, *made->ready, std::move(made->bent));
+  Diagnostics told_of_light;
+  if (native) told_of_light = add_native_light(opened, made->ready->copies, compiled.product, executor);
+  if (has_error(told_of_light)) return told_of_light;
   compiled.report = report_of(opened, *made->ready, compiled.product, bend_error_px);
   compiled.notes = located(notes_of(options, *made->ready), opened.scene.span);
+  compiled.notes.insert(compiled.notes.end(), told_of_light.begin(), told_of_light.end());
   return compiled;
 }
 
 Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor) {
-  const auto ready = get_ready(opened, options, Purpose::plan, executor, {});
+  const auto ready = get_ready(opened, nullptr, options, Purpose::plan, executor, {});
   if (!ready) return located(ready.error(), opened.scene.span);
   auto planned = estimated(opened, options, **ready, executor);
   if (!planned) return located(planned.error(), opened.scene.span);
@@ -363,6 +423,7 @@ std::string report_json(const Compiled& compiled) {
                               {"error_bound_px", r.error_bound_px}, {"tolerance_px", r.tolerance_px}, {"copies_left_out", r.left_out}, {"left_out_px", r.left_out_px}, {"weight_lost", r.weight_lost},
                               {"weight_merged", r.weight_merged}, {"curtains", r.curtains}, {"curtains_dropped", r.curtains_dropped},
                               {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
+                              {"lamps", compiled.product.native ? compiled.product.native->lamps.size() : 0},
                               {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
   if (!r.levels.empty()) {
     nlohmann::ordered_json& levels = json["levels"] = nlohmann::ordered_json::array();
@@ -370,6 +431,7 @@ std::string report_json(const Compiled& compiled) {
   }
   nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
   for (const DrawnCopy& c : compiled.product.copies) {
+    if (c.shine != Shine::lit) continue;   // listed with its room
     list.push_back({{"word", cover::to_string(c.word)}, {"bounces", c.bounces}, {"sheet", c.sheet}, {"mirrored", c.reversing}, {"weight", {c.tint.r, c.tint.g, c.tint.b}},
                     {"distance", c.distance}, {"triangles", c.index_count / 3}, {"level", c.level}});
     if (c.storey != 0) list.back()["storey"] = c.storey;

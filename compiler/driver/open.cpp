@@ -26,6 +26,8 @@ void apply(const Overrides& overrides, scene::Scene& scene) {
   if (overrides.size) scene.camera.size = *overrides.size;
   if (overrides.max_bounces) scene.cover.max_bounces = *overrides.max_bounces;
   if (overrides.projection) scene.camera.projection = *overrides.projection;
+  if (overrides.atlas) scene.bake.atlas = *overrides.atlas;
+  if (overrides.lights) scene.bake.lights = *overrides.lights;
   if (overrides.quality) scene.bake.quality = *overrides.quality;
 }
 

@@ -18,6 +18,8 @@ struct Overrides {
   std::optional<scene::Projection> projection;
   std::optional<scene::Integrator> integrator;
   std::optional<scene::BakeQuality> quality;
+  std::optional<scene::LightsBy> lights;
+  std::optional<scene::AtlasDepth> atlas;
   bool expected_background = false;
 };
 

@@ -27,7 +27,7 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
                       const Executor& executor, const Progress& progress) {
   Painted painted;
   if (!light::needs_bake(opened.scene, *opened.room)) {
-    auto atlas = light::make_atlas(exposed(room, opened.scene.exposure), {options.max_side});
+    auto atlas = light::make_atlas(exposed(room, opened.scene.exposure), {options.max_side, options.deep});
     if (!atlas) return atlas.error();
     painted.atlas = std::move(*atlas);
     return painted;
@@ -37,6 +37,7 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
   field.options = light::baked_light_options(opened.scene);
   light::BakeOptions bake = baking;
   bake.max_side = options.max_side;
+  bake.deep = options.deep;
   if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, field.options.passes = 0;
   auto baked = light::bake(room, field, bake, executor, progress);
   if (!baked) return baked.error();

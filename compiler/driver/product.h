@@ -10,8 +10,16 @@
 #include "compiler/place/eye.h"
 #include "compiler/room/room.h"
 #include "compiler/scene/color.h"
+#include "compiler/scene/scene.h"
 
 namespace orbc::driver {
+
+/// How a copy's triangles shine. Only products with lamps know others than `lit`.
+enum class Shine {
+  lit,                              ///< by what light there is: the atlas', or that of lamps
+  glowing,                          ///< the atlas holds their light, lamps add nothing
+  lamp,                             ///< the same, and they cast no shadow: bodies of lamps
+};
 
 /// One bent copy: its piece of the product's arrays, and what it is.
 struct DrawnCopy {
@@ -25,6 +33,24 @@ struct DrawnCopy {
   int storey = 0;                   ///< mirrors on floor and ceiling: how many storeys up or down
   int level = 0;                    ///< coarsest level of detail among its parts; 0 = all of it
   std::optional<cover::Wedge> wedge;  ///< the bearings in which it is seen, if not all of it is
+  Shine shine = Shine::lit;
+};
+
+/// An image of a lamp in eye coordinates, for the renderer to light one copy with.
+struct NativeLamp {
+  std::size_t copy = 0;             ///< index into Product::copies: what it lights
+  bool own = true;                  ///< it hangs in that copy; false: it is its image in mirrors
+  scene::LampKind kind = scene::LampKind::point;
+  bool fades = true;                ///< by the square of the distance
+  geometry::Vector3 at, axis{0, 0, -1};   ///< axis: unit, where it shines to (tube: along it)
+  geometry::Vector3 across, other;  ///< half the extent of a disk, rectangle, sphere; of a tube `across` is half its length
+  double cone_inner = -1, cone_outer = -1;  ///< spot: cosines between which it fades out
+  scene::Color intensity;           ///< so that a white surface face on at distance r shows intensity/r²; weights and exposure are in it
+};
+/// The renderer's own light: what copies with Shine::lit get instead of light in the atlas.
+struct NativeLight {
+  scene::Color ambient;             ///< exposure is in it
+  std::vector<NativeLamp> lamps;    ///< in the order of the copies
 };
 
 /// All that an exporter may know: dense meshes in eye coordinates (z up, right-handed), one atlas, one camera.
@@ -33,11 +59,16 @@ struct Product {
   place::Eye eye;
   scene::Color background;
   mesh::Image atlas;                ///< sRGB, rows from top to bottom
+  mesh::DeepImage deep_atlas;       ///< the same with 16 bits a channel; empty unless asked for
+  scene::AtlasDepth depth = scene::AtlasDepth::eight;  ///< what exporters are to write of it
+  bool masked = false;              ///< texels of the atlas whose alpha is below one half are holes in what they cover
   bool blended_atlas = false;       ///< its texels are points of a smooth picture (baked light): to be looked up bilinearly
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<float, 2>> uv;      ///< into the atlas, v from top to bottom (glTF)
   std::vector<std::uint32_t> indices;        ///< absolute, three a triangle
   std::vector<DrawnCopy> copies;
+  std::optional<NativeLight> native;         ///< nothing: the atlas holds the light
+  std::vector<std::array<float, 3>> normals; ///< with `native` only: unit, parallel to positions
   bool flat_view = false;           ///< `--view disk`: the eye stands in chart coordinates
 };
 

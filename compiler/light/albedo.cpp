@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "compiler/geometry/chart.h"
+#include "compiler/place/texel.h"
 
 namespace orbc::light {
 namespace {
@@ -48,10 +49,7 @@ double step(double from, double to, double t) {
 }
 
 Color texel(const mesh::Image& image, double u, double v) {
-  const auto index = [](double t, int n) { return std::clamp(static_cast<int>(std::floor((t - std::floor(t)) * n)), 0, n - 1); };
-  const std::uint8_t* p =
-      image.rgba.data() + 4 * (static_cast<std::size_t>(index(v, image.height)) * static_cast<std::size_t>(image.width) +
-                               static_cast<std::size_t>(index(u, image.width)));
+  const std::uint8_t* p = place::texel(image, u, v);
   return {scene::decode_srgb(p[0] / 255.0), scene::decode_srgb(p[1] / 255.0), scene::decode_srgb(p[2] / 255.0)};
 }
 

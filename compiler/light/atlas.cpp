@@ -26,27 +26,35 @@ constexpr int kGutter = 4;
 struct Cell {
   int texture = -1;
   Texel color{};              ///< of a plain colour
+  std::array<std::uint16_t, 3> deep{};   ///< the same with 16 bits a channel
   std::array<double, 3> tint{1, 1, 1};
   bool tiles = false;
+  double cutoff = -1;         ///< of holes, as in Look
   int width = kBlock, height = kBlock;   ///< with gutters
   int x = 0, y = 0;
-  [[nodiscard]] auto key() const { return std::tuple(texture, color, tint, tiles); }
+  [[nodiscard]] auto key() const { return std::tuple(texture, color, deep, tint, tiles, cutoff); }
 };
 
 std::uint8_t encoded(double linear) {
   return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0))));
 }
 
+std::uint16_t deeply_encoded(double linear) {
+  return static_cast<std::uint16_t>(std::lround(65535 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0))));
+}
+
 Cell cell_of(const place::PlacedRoom& room, const Look& look, bool tiles) {
   Cell cell;
   if (look.texture < 0) {
     cell.color = {encoded(look.color.r), encoded(look.color.g), encoded(look.color.b), 255};
+    cell.deep = {deeply_encoded(look.color.r), deeply_encoded(look.color.g), deeply_encoded(look.color.b)};
     return cell;
   }
   const mesh::Image& image = room.textures[look.texture];
   cell.texture = look.texture;
   cell.tint = {look.color.r, look.color.g, look.color.b};
   cell.tiles = tiles;
+  cell.cutoff = look.cutoff;
   cell.width = image.width + 2 * kGutter;
   cell.height = image.height + 2 * kGutter;
   return cell;
@@ -110,7 +118,7 @@ bool pack(Layout& layout, int max_side) {
 Texel texel_of(const mesh::Image& image, const Cell& cell, const std::array<std::array<std::uint8_t, 256>, 3>& tint, int x, int y) {
   const auto wrap = [&cell](int i, int n) { return cell.tiles ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); };
   const std::size_t at = 4 * (static_cast<std::size_t>(wrap(y, image.height)) * image.width + wrap(x, image.width));
-  return {tint[0][image.rgba[at]], tint[1][image.rgba[at + 1]], tint[2][image.rgba[at + 2]], image.rgba[at + 3]};
+  return {tint[0][image.rgba[at]], tint[1][image.rgba[at + 1]], tint[2][image.rgba[at + 2]], static_cast<std::uint8_t>(image.rgba[at + 3] < cell.cutoff * 255 ? 0 : 255)};
 }
 
 void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
@@ -122,6 +130,24 @@ void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
     for (int x = 0; x < cell.width; ++x) {
       const Texel texel = cell.texture < 0 ? cell.color : texel_of(room.textures[cell.texture], cell, tint, x - kGutter, y - kGutter);
       std::copy(texel.begin(), texel.end(), atlas.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(cell.y + y) * atlas.width + cell.x + x));
+    }
+}
+
+/// The same into the deep picture, from the full precision of colours and of tints.
+void draw(const place::PlacedRoom& room, const Cell& cell, mesh::DeepImage& deep) {
+  std::array<std::array<std::uint16_t, 256>, 3> tint;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < 256; ++i) tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint16_t>(257 * i) : deeply_encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
+  std::array<std::array<std::uint8_t, 256>, 3> same;
+  for (auto& channel : same) std::iota(channel.begin(), channel.end(), std::uint8_t{0});
+  for (int y = 0; y < cell.height; ++y)
+    for (int x = 0; x < cell.width; ++x) {
+      std::array<std::uint16_t, 3> texel = cell.deep;
+      if (cell.texture >= 0) {
+        const Texel code = texel_of(room.textures[cell.texture], cell, same, x - kGutter, y - kGutter);
+        texel = {tint[0][code[0]], tint[1][code[1]], tint[2][code[2]]};
+      }
+      std::copy(texel.begin(), texel.end(), deep.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(cell.y + y) * deep.width + cell.x + x));
     }
 }
 
@@ -182,6 +208,11 @@ Result<Atlas> make_atlas(const place::PlacedRoom& room, const AtlasOptions& opti
   atlas.image.rgba.assign(4 * static_cast<std::size_t>(layout.width) * layout.height, 128);
   for (std::size_t i = 3; i < atlas.image.rgba.size(); i += 4) atlas.image.rgba[i] = 255;
   for (const Cell& cell : layout.cells) draw(room, cell, atlas.image);
+  if (options.deep) {
+    atlas.deep.width = layout.width, atlas.deep.height = layout.height;
+    atlas.deep.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
+    for (const Cell& cell : layout.cells) draw(room, cell, atlas.deep);
+  }
   atlas.room = room;
   for (PlacedMesh& part : atlas.room.parts) atlas.uv.push_back(address(layout, part));
   return atlas;

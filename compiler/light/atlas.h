@@ -12,10 +12,12 @@ struct Atlas {
   mesh::Image image;                                       ///< sRGB, rows from top to bottom
   place::PlacedRoom room;                                  ///< the room with vertices split where triangles of different looks met
   std::vector<std::vector<std::array<float, 2>>> uv;       ///< per part, per vertex; v from top to bottom
+  mesh::DeepImage deep;                                    ///< the same picture with 16 bits a channel, where that was asked for
 };
 
 struct AtlasOptions {
   int max_side = 16384;                                    ///< pixels
+  bool deep = false;                                       ///< 16 bits a channel as well
 };
 
 /// Gathers the plain colours and pictures of a room in one picture.

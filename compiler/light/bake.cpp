@@ -17,6 +17,7 @@
 #include "compiler/light/passing.h"
 #include "compiler/light/pattern_density.h"
 #include "compiler/light/way.h"
+#include "compiler/place/texel.h"
 
 namespace orbc::light {
 namespace {
@@ -38,6 +39,11 @@ struct Part {
   std::vector<std::uint8_t> blind_vertex;
 };
 
+std::array<std::uint16_t, 3> deep_code(const Color& c) {
+  const auto code = [](double v) { return static_cast<std::uint16_t>(std::lround(65535 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
+  return {code(c.r), code(c.g), code(c.b)};
+}
+
 /// A block on its way: irradiance on a grid, every point of it known in the end.
 struct Grid {
   int w = 1, h = 1;                 ///< points
@@ -50,6 +56,7 @@ struct Grid {
 struct Finished {
   Box box;
   std::vector<Texel> texels;
+  std::vector<std::array<std::uint16_t, 3>> deep;   ///< the same with 16 bits a channel, where asked for
   std::uint64_t asked = 0;
 };
 
@@ -111,11 +118,21 @@ class BlockBaker {
     for (const Color& c : shown_at) {
       const auto code = [](double v) { return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
       done.texels.push_back({code(c.r), code(c.g), code(c.b), 255});
+      if (part_.options.deep) done.deep.push_back(deep_code(c));
     }
+    cut_holes(done);
     return done;
   }
 
  private:
+  void cut_holes(Finished& done) const {
+    if (!place::has_holes(part_.room.looks[part_.mesh.look[block_.first]])) return;
+    const int w = done.box.width, h = done.box.height;
+    for (int j = 0; j < h; ++j)
+      for (int i = 0; i < w; ++i)
+        if (in_hole(part_.room, block_, static_cast<double>(i) / (w - 1), static_cast<double>(j) / (h - 1)))
+          done.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)][3] = 0;
+  }
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * grid_.w + i; }
   bool valid(int i, int j) const {
     return block_.second >= 0 || static_cast<std::int64_t>(i) * (grid_.h - 1) + static_cast<std::int64_t>(j) * (grid_.w - 1) <=
@@ -438,6 +455,10 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
   atlas.image.width = (*size)[0], atlas.image.height = (*size)[1];
   atlas.image.rgba.assign(4 * static_cast<std::size_t>(atlas.image.width) * static_cast<std::size_t>(atlas.image.height), 128);
   for (std::size_t i = 3; i < atlas.image.rgba.size(); i += 4) atlas.image.rgba[i] = 255;
+  if (options.deep) {
+    atlas.deep.width = atlas.image.width, atlas.deep.height = atlas.image.height;
+    atlas.deep.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
+  }
   for (std::size_t f = 0; f < finished.size(); ++f) {
     Box& box = finished[f].box;
     box = boxes[f];
@@ -446,6 +467,9 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
         const Texel& texel = finished[f].texels[static_cast<std::size_t>(y) * box.width + x];
         std::copy(texel.begin(), texel.end(),
                   atlas.image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
+        if (!options.deep) continue;
+        const auto& fine = finished[f].deep[static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x)];
+        std::copy(fine.begin(), fine.end(), atlas.deep.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
       }
   }
   atlas.room = room;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "compiler/place/texel.h"
+
 namespace orbc::light {
 namespace {
 
@@ -90,6 +92,15 @@ InTriangle in_triangle(const Block& block, double u, double v) {
   place.triangle = static_cast<std::size_t>(block.second);
   place.b[block.second_turn[0]] = u + v - 1, place.b[block.second_turn[1]] = 1 - u, place.b[block.second_turn[2]] = 1 - v;
   return place;
+}
+
+bool in_hole(const place::PlacedRoom& room, const Block& block, double u, double v) {
+  if (block.second < 0 && u + v > 1) {
+    u = std::clamp((1 + u - v) / 2, 0.0, 1.0);
+    v = 1 - u;
+  }
+  const InTriangle at = in_triangle(block, u, v);
+  return place::in_hole(room, room.parts[block.part], at.triangle, {at.b[0], at.b[1], at.b[2]});
 }
 
 std::optional<std::array<int, 2>> pack(std::vector<Box>& boxes, int max_side) {

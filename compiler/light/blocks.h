@@ -29,6 +29,10 @@ struct InTriangle {
 };
 [[nodiscard]] InTriangle in_triangle(const Block& block, double u, double v);
 
+/// Whether (u, v) of the square lies in a hole of its triangle (Look::cutoff); beyond the long side of a single triangle as the point of
+/// that side nearest to it.
+[[nodiscard]] bool in_hole(const place::PlacedRoom& room, const Block& block, double u, double v);
+
 /// A rectangle to be packed.
 struct Box {
   int width = 0, height = 0, x = 0, y = 0;

@@ -12,6 +12,7 @@
 
 #include "compiler/light/highlight_pack.h"
 #include "compiler/light/way.h"
+#include "compiler/place/texel.h"
 
 namespace orbc::light {
 namespace {
@@ -61,6 +62,7 @@ struct Finished {
   std::size_t block = 0;
   Box box;
   std::vector<Color> shown;  ///< encoded 0…1
+  std::vector<std::uint8_t> holes;  ///< per texel, of looks that have some
 };
 
 struct Job {
@@ -121,6 +123,7 @@ class PartShine {
       const place::Look& look = job_.room.looks[mesh_.look[blocks_[i].first]];
       whole_ = job_.options.seen_in && mirrors_or_refracts(look.material);
       if (!whole_ && !shines(look.material)) continue;
+      holes_ = place::has_holes(look);
       if (auto finished = bake_block(i, look)) done.push_back(std::move(*finished));
     }
     return done;
@@ -298,6 +301,7 @@ class PartShine {
           c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
         }
         done.shown.push_back({scene::encode_srgb(c.r), scene::encode_srgb(c.g), scene::encode_srgb(c.b)});
+        if (holes_) done.holes.push_back(in_hole(job_.room, block, static_cast<double>(i) / (w - 1), static_cast<double>(j) / (h - 1)));
       }
     return done;
   }
@@ -331,6 +335,7 @@ class PartShine {
   const PartNormals& normals_;
   const std::vector<Block>& blocks_;
   bool whole_ = false;          ///< the block's whole light depends on the eye: mirror and glass
+  bool holes_ = false;
   std::vector<int> known_;      ///< for which look
   std::vector<Color> at_vertex_;
 };
@@ -408,14 +413,22 @@ OwnUv own_uv(const Shining& shining, const Baked& baked) {
   return own;
 }
 
-void draw(const Finished& f, mesh::Image& image) {
+void draw(const Finished& f, Atlas& atlas) {
+  mesh::Image& image = atlas.image;
+  mesh::DeepImage& deep = atlas.deep;
   for (int y = 0; y < f.box.height; ++y)
     for (int x = 0; x < f.box.width; ++x) {
-      const Color& c = f.shown[static_cast<std::size_t>(y) * static_cast<std::size_t>(f.box.width) + static_cast<std::size_t>(x)];
-      std::uint8_t* to = image.rgba.data() + 4 * (static_cast<std::size_t>(f.box.y + y) * static_cast<std::size_t>(image.width) +
-                                                  static_cast<std::size_t>(f.box.x + x));
+      const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.box.width) + static_cast<std::size_t>(x);
+      const std::size_t at = static_cast<std::size_t>(f.box.y + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(f.box.x + x);
+      const Color& c = f.shown[from];
+      std::uint8_t* to = image.rgba.data() + 4 * at;
       to[0] = static_cast<std::uint8_t>(std::lround(255 * c.r)), to[1] = static_cast<std::uint8_t>(std::lround(255 * c.g));
       to[2] = static_cast<std::uint8_t>(std::lround(255 * c.b));
+      if (!f.holes.empty()) to[3] = f.holes[from] ? 0 : 255;
+      if (deep.rgb.empty()) continue;
+      std::uint16_t* fine = deep.rgb.data() + 3 * at;
+      fine[0] = static_cast<std::uint16_t>(std::lround(65535 * c.r)), fine[1] = static_cast<std::uint16_t>(std::lround(65535 * c.g));
+      fine[2] = static_cast<std::uint16_t>(std::lround(65535 * c.b));
     }
 }
 
@@ -479,7 +492,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
   enlarge(baked, (*size)[0], (*size)[1]);
   for (const Shining& shining : all) {
     if (result.own.empty() || result.own.back().copy != shining.copy) ++result.counts.copies;
-    for (const Finished& f : shining.blocks) draw(f, baked.atlas.image);
+    for (const Finished& f : shining.blocks) draw(f, baked.atlas);
     result.own.push_back(own_uv(shining, baked));
   }
   return result;

@@ -36,6 +36,14 @@ void enlarge(Baked& baked, int width, int height) {
   const double u = static_cast<double>(atlas.image.width) / width, v = static_cast<double>(atlas.image.height) / height;
   for (auto& part : atlas.uv)
     for (auto& at : part) at = {static_cast<float>(u * static_cast<double>(at[0])), static_cast<float>(v * static_cast<double>(at[1]))};
+  if (!atlas.deep.rgb.empty()) {
+    mesh::DeepImage finer{width, height, std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
+    for (int y = 0; y < atlas.deep.height; ++y) {
+      const auto from = atlas.deep.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * atlas.deep.width;
+      std::copy(from, from + 3 * static_cast<std::ptrdiff_t>(atlas.deep.width), finer.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * width);
+    }
+    atlas.deep = std::move(finer);
+  }
   atlas.image = std::move(larger);
 }
 

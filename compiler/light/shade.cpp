@@ -9,6 +9,7 @@
 #include "compiler/light/falloff.h"
 #include "compiler/light/guide.h"
 #include "compiler/light/way.h"
+#include "compiler/place/texel.h"
 
 namespace orbc::light {
 namespace {
@@ -117,7 +118,7 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
   field.normals.resize(room.parts.size());
   executor(room.parts.size(), [&](std::size_t i) { field.normals[i] = part_normals(room, room.parts[i]); });
   auto casting = std::make_shared<place::PlacedRoom>(room);
-  casting->textures.clear();
+  if (!place::has_holes(room)) casting->textures.clear();
   casting->parts.erase(
       std::remove_if(casting->parts.begin(), casting->parts.end(), [](const place::PlacedMesh& part) { return lamp_of(part) >= 0; }),
       casting->parts.end());

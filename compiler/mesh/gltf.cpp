@@ -378,6 +378,10 @@ class Reader {
         look.color[k] = value >= 0 && value <= 1 ? value : 1;
       }
       if (const auto* info = texture_info(material)) look.texture = texture_of(info->index);
+      // Alpha is that of the texture times that of the factor.
+      const auto& own = model_.materials[static_cast<std::size_t>(material)];
+      const double factor = pbr.baseColorFactor.size() == 4 ? pbr.baseColorFactor[3] : 1;
+      if (own.alphaMode == "MASK" && look.texture >= 0) look.cutoff = factor > 0 ? std::max(0.0, own.alphaCutoff / factor) : 2;
     }
     if (mesh_.looks.size() >= 256) {
       if (looks_.size() == 256) {

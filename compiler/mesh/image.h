@@ -25,6 +25,13 @@ struct ImageLimits {
 /// The picture as a PNG file, RGB if it is opaque everywhere, else RGBA; same picture, same bytes (no time stamp, no text).
 [[nodiscard]] std::string encode_png(const Image& image);
 
+/// A picture of 16 bits a channel as PNG, its codes sRGB as they are; with the alpha of a picture of the same size, if one is given.
+[[nodiscard]] std::string encode_png(const DeepImage& image, const Image* alpha = nullptr);
+/// The same as OpenEXR: linear light in half floats.
+[[nodiscard]] std::string encode_exr(const DeepImage& image);
+/// The alpha of a picture as a grey PNG.
+[[nodiscard]] std::string encode_mask(const Image& image);
+
 /// Reads what encode_png wrote, or any PNG.
 [[nodiscard]] Result<Image> decode_png(std::string_view bytes, const ImageLimits& limits = {});
 

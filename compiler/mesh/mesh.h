@@ -16,6 +16,12 @@ struct Image {
   std::vector<std::uint8_t> rgba;
 };
 
+/// A picture of 16 bits a channel, sRGB-encoded RGB, rows from top to bottom; finer than an Image where banding would show.
+struct DeepImage {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> rgb;
+};
+
 /// A triangle mesh as it comes from a file or a formula: Euclidean, z up, counter-clockwise seen from outside.
 struct Mesh {
   std::vector<geometry::Vector3> positions;
@@ -25,6 +31,7 @@ struct Mesh {
   struct Look {                                  ///< what the file says its surface looks like
     std::array<double, 3> color{0.8, 0.8, 0.8};  ///< linear
     int texture = -1;                            ///< index into `textures`
+    double cutoff = -1;                          ///< texels of less alpha (0…1) than this are holes; < 0: there are none
   };
   std::vector<Look> looks;  ///< empty when the file has no materials
   std::vector<Image> textures;

@@ -13,6 +13,7 @@
 #include "compiler/place/beams.h"
 #include "compiler/place/locate.h"
 #include "compiler/place/seams.h"
+#include "compiler/place/texel.h"
 #include "compiler/place/wrap.h"
 
 namespace orbc::place {
@@ -20,6 +21,27 @@ namespace {
 
 using scene::Material;
 using scene::Pattern;
+
+/// Of a mask: its alpha, if it has any, else its brightness (Rec. 709 weights on the codes).
+std::uint8_t opacity_at(const mesh::Image& mask, bool by_alpha, double u, double v) {
+  const std::uint8_t* p = texel(mask, u, v);
+  return by_alpha ? p[3] : static_cast<std::uint8_t>((2126 * p[0] + 7152 * p[1] + 722 * p[2] + 5000) / 10000);
+}
+
+mesh::Image masked(const mesh::Image* colors, const mesh::Image& mask) {
+  bool by_alpha = false;
+  for (std::size_t i = 3; i < mask.rgba.size(); i += 4) by_alpha = by_alpha || mask.rgba[i] < 255;
+  mesh::Image made{std::max(mask.width, colors ? colors->width : 1), std::max(mask.height, colors ? colors->height : 1), {}};
+  made.rgba.reserve(4 * static_cast<std::size_t>(made.width) * static_cast<std::size_t>(made.height));
+  constexpr std::uint8_t kWhite[] = {255, 255, 255};
+  for (int y = 0; y < made.height; ++y)
+    for (int x = 0; x < made.width; ++x) {
+      const double u = (x + 0.5) / made.width, v = (y + 0.5) / made.height;
+      const std::uint8_t* color = colors ? texel(*colors, u, v) : kWhite;
+      made.rgba.insert(made.rgba.end(), {color[0], color[1], color[2], opacity_at(mask, by_alpha, u, v)});
+    }
+  return made;
+}
 
 /// The room under construction: errors and warnings are collected, so that an author sees all at once.
 struct Builder {
@@ -53,6 +75,22 @@ struct Builder {
     return texture_of_path[written.value] = index;
   }
 
+  // A picture whose alpha is the mask: the texture's colours, or white, at the finer resolution of the two.
+  int masked_texture(const Material& material) {
+    const std::string name = (material.pattern == Pattern::texture ? material.texture.value : "") + "\n" + material.opacity_mask.value;
+    const auto known = texture_of_path.find(name);
+    if (known != texture_of_path.end()) return known->second;
+    const int colors = material.pattern == Pattern::texture ? texture(material.texture) : -1, holes = texture(material.opacity_mask);
+    int index = -1;
+    if (holes >= 0) {
+      const mesh::Image* under = colors >= 0 ? &placed.textures[static_cast<std::size_t>(colors)] : nullptr;
+      mesh::Image made = masked(under, placed.textures[static_cast<std::size_t>(holes)]);
+      index = static_cast<int>(placed.textures.size());
+      placed.textures.push_back(std::move(made));
+    }
+    return texture_of_path[name] = index;
+  }
+
   std::uint16_t add(const Look& look) {
     if (placed.looks.size() == 0xffff)
       errors.push_back(make_error("place.too-many-looks", "this scene has more than 65535 different surfaces", "leave some objects out"));
@@ -64,6 +102,7 @@ struct Builder {
   std::vector<std::uint16_t> looks_of(const Material& material) {
     Look look{material.color, -1, material};
     if (material.pattern == Pattern::texture) look.texture = texture(material.texture);
+    if (!material.opacity_mask.value.empty()) look.texture = masked_texture(material), look.cutoff = material.cutoff;
     std::vector<std::uint16_t> looks{add(look)};
     look.color = material.second;
     if (material.pattern == Pattern::checker) looks.push_back(add(look));
@@ -108,6 +147,9 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
     const Material& material = panel.kind == PartKind::floor     ? *shell.floor
                                : panel.kind == PartKind::ceiling ? *shell.ceiling
                                                                  : shell.walls[panel.wall];
+    if (!material.opacity_mask.value.empty())
+      builder.errors.push_back(make_error("place.masked-shell", fmt::format("the {} closes the room and can have no holes", panel.name), "put the `opacity_mask` on an object",
+                                          material.opacity_mask.span));
     const std::vector<std::uint16_t> looks = builder.looks_of(material);
     builder.add_part(std::move(panel), looks, material.span);
   }
@@ -152,6 +194,7 @@ std::vector<std::uint16_t> file_looks(Builder& builder, const mesh::Mesh& mesh, 
     Look look;
     look.color = look.material.color = {own.color[0], own.color[1], own.color[2]};
     look.texture = own.texture >= 0 && !placed.uv.empty() ? first + own.texture : -1;
+    look.cutoff = own.cutoff;
     looks.push_back(builder.add(look));
   }
   if (looks.empty()) looks.push_back(builder.add({}));
@@ -165,6 +208,11 @@ void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const
                                             fmt::format("{} has no texture coordinates; it is shown in its plain colour", mesh.name),
                                             "give it a `color`, or export the mesh with uv", material.span));
     material.pattern = Pattern::plain;
+  }
+  if (!material.opacity_mask.value.empty() && mesh.uv.empty()) {
+    builder.warnings.push_back(make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown without the holes of its mask", mesh.name),
+                                            "export the mesh with uv", material.opacity_mask.span));
+    material.opacity_mask = {};
   }
   std::fill(mesh.look.begin(), mesh.look.end(), std::uint16_t{0});
   if (material.pattern == Pattern::checker) {

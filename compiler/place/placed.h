@@ -19,6 +19,7 @@ struct Look {
   scene::Color color{0.8, 0.8, 0.8};
   int texture = -1;                       ///< index into PlacedRoom::textures; then `color` multiplies it
   scene::Material material;               ///< the author's words, for shading
+  double cutoff = -1;                     ///< with a texture: texels of less alpha (0…1) than this are holes; < 0: there are none
 };
 
 /// A mesh of geodesic triangles in room coordinates: point(b) = (normalise(Σ bᵢXᵢ), Σ bᵢzᵢ) with affine b. Source: design §2.

@@ -2,35 +2,12 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 
-#include <cstring>
-
+#include "compiler/mesh/exr_stream.h"
 #include "compiler/render/film.h"
 
 namespace orbc::render {
-namespace {
-
-class MemoryStream : public Imf::OStream {
- public:
-  explicit MemoryStream(std::string& bytes) : Imf::OStream("film.exr"), bytes_(bytes) {}
-  void write(const char* data, int count) override {
-    const std::size_t end = at_ + static_cast<std::size_t>(count);
-    if (bytes_.size() < end) bytes_.resize(end);
-    std::memcpy(bytes_.data() + at_, data, static_cast<std::size_t>(count));
-    at_ = end;
-  }
-  std::uint64_t tellp() override { return at_; }
-  void seekp(std::uint64_t at) override { at_ = at; }
-
- private:
-  std::string& bytes_;
-  std::size_t at_ = 0;
-};
-
-}  // namespace
-
 std::string to_exr(const Film& film) {
   const std::size_t n = film.color.size();
   const char* names[] = {"R", "G", "B", "Z", "N.X", "N.Y", "N.Z", "object.id", "bounces", "weight"};
@@ -50,7 +27,7 @@ std::string to_exr(const Film& film) {
   }
   std::string bytes;
   {
-    MemoryStream stream(bytes);
+    mesh::MemoryStream stream(bytes);
     Imf::OutputFile file(stream, header, 1);
     file.setFrameBuffer(frame);
     file.writePixels(film.height);

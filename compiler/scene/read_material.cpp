@@ -82,6 +82,18 @@ void read_pattern(const Fields& fields, Material& material) {
   material.second = reader.color(node.items[1], "the second colour", material.second);
 }
 
+// Holes: of what is opaque, in one colour or a picture.
+void read_mask(const Fields& fields, Material& material) {
+  material.cutoff = fields.number("cutoff", material.cutoff, kUnit);
+  const Node* node = fields.find("opacity_mask");
+  if (!node) return fields.no_effect("cutoff", "it says where an `opacity_mask` has holes, and there is none");
+  Reader& reader = fields.reader();
+  if (auto path = reader.text(*node, "`opacity_mask`")) material.opacity_mask = {*path, node->span};
+  const auto conflict = [&](const char* what) { reader.error("scene.conflict", fields.key_span("opacity_mask"), fmt::format("an `opacity_mask` does not go with {}", what), "keep one of the two"); };
+  if (material.kind == MaterialKind::mirror || material.kind == MaterialKind::glass) conflict("mirror and glass");
+  if (material.pattern != Pattern::plain && material.pattern != Pattern::texture) conflict("solid patterns");
+}
+
 void read_own_keys(const Fields& fields, Material& material) {
   material.kind = fields.choice<MaterialKind>("kind", material.kind,
                                               {{"matte", MaterialKind::matte}, {"glossy", MaterialKind::glossy}, {"metal", MaterialKind::metal},
@@ -93,6 +105,7 @@ void read_own_keys(const Fields& fields, Material& material) {
   material.roughness = fields.number("roughness", material.roughness, kUnit);
   material.index = fields.number("index", material.index, {1, 5});
   material.emission = fields.number("emission", material.emission, {0, 1e6});
+  read_mask(fields, material);
 }
 
 Material read_named(Reader& reader, const Node& node, const std::string& what, const Material& base) {
@@ -114,7 +127,7 @@ Material read_named(Reader& reader, const Node& node, const std::string& what, c
 
 const std::vector<std::string>& material_keys() {
   static const std::vector<std::string> keys = {"material", "preset", "kind",    "color", "second",    "pattern", "checker", "marble",
-                                                "wood",     "granite", "texture", "cell",  "roughness", "index",   "emission"};
+                                                "wood",     "granite", "texture", "cell",  "roughness", "index",   "emission", "opacity_mask", "cutoff"};
   return keys;
 }
 

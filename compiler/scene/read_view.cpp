@@ -96,7 +96,9 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
 
 BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator) {
   BakeSpec bake;
-  const Fields fields(reader, node, "the bake", {"bounces", "mirrors", "samples", "quality", "seed"});
+  const Fields fields(reader, node, "the bake", {"atlas", "lights", "bounces", "mirrors", "samples", "quality", "seed"});
+  bake.lights = fields.choice<LightsBy>("lights", bake.lights, {{"baked", LightsBy::baked}, {"native", LightsBy::native}});
+  bake.atlas = fields.choice<AtlasDepth>("atlas", bake.atlas, {{"8", AtlasDepth::eight}, {"16", AtlasDepth::sixteen}, {"exr", AtlasDepth::exr}});
   bake.bounces = fields.integer("bounces", bake.bounces, 0, 64);
   bake.mirrors = fields.integer("mirrors", bake.mirrors, 0, 12);
   if (const Node* mirrors = fields.find("mirrors")) bake.mirrors_span = mirrors->span;

@@ -60,6 +60,8 @@ struct Material {
   double index = 1.5;               ///< refractive index of glass
   double emission = 1;              ///< emissive: radiance = emission × color
   Sourced<std::string> texture;
+  Sourced<std::string> opacity_mask;  ///< a picture like `texture`: where it is less opaque (or, without alpha, darker) than `cutoff` there is no surface; empty: none
+  double cutoff = 0.5;
   SourceSpan span;
 };
 
@@ -164,7 +166,13 @@ struct Lamp {
 /// each other, and emissive objects (`path`).
 enum class Integrator { direct, path };
 enum class BakeQuality { draft, normal, fine };
+/// Who lights exports: orbc, in the atlas; or the renderer with lamps of its own, along straight rays.
+enum class LightsBy { baked, native };
+/// How finely the atlas holds colours: 8 or 16 bits a channel, sRGB-encoded, or half floats, linear.
+enum class AtlasDepth { eight, sixteen, exr };
 struct BakeSpec {
+  AtlasDepth atlas = AtlasDepth::eight;
+  LightsBy lights = LightsBy::baked;
   int bounces = 64;                 ///< `path`: how often matte surfaces may pass light on; the tracer keeps to it too
   int mirrors = 2;                  ///< mirrors on walls, floor and ceiling that the light of a lamp is followed over, in both roads
   SourceSpan mirrors_span;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/place/texel.h"
 #include "compiler/trace/bvh.h"
 #include "compiler/trace/scene.h"
 
@@ -76,6 +77,7 @@ TraceScene prepare(const place::PlacedRoom& room, const Executor& execute) {
     for (std::size_t i = 0; i < mesh.floor.size(); ++i) soup.vertices.push_back({mesh.floor[i].w, mesh.floor[i].x, mesh.floor[i].y, mesh.z[i]});
     for (const mesh::Triangle& t : mesh.triangles) soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
+  scene.masked = place::has_holes(room);
   scene.all_inside = std::all_of(soup.vertices.begin(), soup.vertices.end(), [&](const Vertex& v) { return inside(scene.prism, v); });
   scene.objects = std::make_shared<Bvh>(room.room.space, std::move(soup), execute);
   return scene;

@@ -38,6 +38,7 @@ struct TraceScene {
   std::vector<Panel> walls;
   Panel floor, ceiling;
   std::shared_ptr<const Bvh> objects;  ///< the triangles of parts of kind object and frame
+  bool masked = false;              ///< some triangles have holes, by the alpha of their texture (Look::cutoff): there rays go on
   bool all_inside = true;           ///< no triangle reaches out of the prism: the walls need asking only when no triangle is met
 };
 

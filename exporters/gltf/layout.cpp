@@ -42,7 +42,8 @@ std::vector<Part> make_parts(const driver::Product& product, bool part_per_copy)
     ORBC_CHECK(copy.first_vertex + copy.vertex_count, <=, product.positions.size());
     ORBC_CHECK(copy.first_index + copy.index_count, <=, product.indices.size());
     ORBC_CHECK(copy.index_count % 3, ==, 0u);
-    if (!part_per_copy && !parts.empty()) {
+    const bool glows = !product.native || copy.shine != driver::Shine::lit;
+    if (!part_per_copy && !parts.empty() && parts.back().glows == glows) {
       Part& last = parts.back();
       if (last.first_vertex + last.vertex_count == copy.first_vertex && last.first_index + last.index_count == copy.first_index) {
         last.copy_count = i + 1 - last.first_copy;
@@ -53,6 +54,7 @@ std::vector<Part> make_parts(const driver::Product& product, bool part_per_copy)
     }
     Part part;
     part.first_copy = i, part.copy_count = 1;
+    part.glows = glows;
     part.first_vertex = copy.first_vertex, part.vertex_count = copy.vertex_count;
     part.first_index = copy.first_index, part.index_count = copy.index_count;
     parts.push_back(part);
@@ -70,6 +72,15 @@ std::array<std::uint16_t, 4> quantised(const scene::Color& tint) {
 template <class T>
 void append(std::string& out, const T* values, std::size_t count) {
   out.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+void append_vectors(const std::vector<std::array<float, 3>>& vectors, const Part& part, std::string& out) {
+  std::array<float, 3> block[kBlock];
+  for (std::size_t done = 0; done < part.vertex_count; done += kBlock) {
+    const std::size_t n = std::min(kBlock, part.vertex_count - done);
+    for (std::size_t i = 0; i < n; ++i) block[i] = gltf_from_eye(vectors[part.first_vertex + done + i]);
+    append(out, block, n);
+  }
 }
 
 template <class Index>
@@ -97,11 +108,12 @@ Layout make_layout(const driver::Product& product, bool part_per_copy, std::size
   layout.parts = make_parts(product, part_per_copy);
   layout.has_uv = !product.atlas.rgba.empty();
   layout.has_color = !part_per_copy;
+  layout.has_normals = !product.normals.empty();
   std::size_t vertices = 0;
   for (Part& part : layout.parts) {
     measure(product, part);
     part.index_bytes = part.vertex_count <= 65535 ? 2 : 4;
-    part.position_at = 12 * vertices;
+    part.position_at = part.normal_at = 12 * vertices;
     part.uv_at = 8 * vertices;
     part.color_at = 8 * vertices;
     vertices += part.vertex_count;
@@ -109,6 +121,8 @@ Layout make_layout(const driver::Product& product, bool part_per_copy, std::size
     layout.index_bytes += aligned(part.index_count * static_cast<std::size_t>(part.index_bytes));
   }
   std::size_t at = layout.position_bytes = 12 * vertices;
+  layout.normal_at = at;
+  at += layout.normal_bytes = layout.has_normals ? 12 * vertices : 0;
   layout.uv_at = at;
   at += layout.uv_bytes = layout.has_uv ? 8 * vertices : 0;
   layout.color_at = at;
@@ -122,14 +136,9 @@ Layout make_layout(const driver::Product& product, bool part_per_copy, std::size
 }
 
 void append_geometry(const driver::Product& product, const Layout& layout, std::string& out) {
-  for (const Part& part : layout.parts) {
-    std::array<float, 3> block[kBlock];
-    for (std::size_t done = 0; done < part.vertex_count; done += kBlock) {
-      const std::size_t n = std::min(kBlock, part.vertex_count - done);
-      for (std::size_t i = 0; i < n; ++i) block[i] = gltf_from_eye(product.positions[part.first_vertex + done + i]);
-      append(out, block, n);
-    }
-  }
+  for (const Part& part : layout.parts) append_vectors(product.positions, part, out);
+  if (layout.has_normals)
+    for (const Part& part : layout.parts) append_vectors(product.normals, part, out);
   if (layout.has_uv)
     for (const Part& part : layout.parts) append(out, product.uv.data() + part.first_vertex, part.vertex_count);
   if (layout.has_color) {
@@ -138,7 +147,7 @@ void append_geometry(const driver::Product& product, const Layout& layout, std::
         const driver::DrawnCopy& copy = product.copies[c];
         if (copy.vertex_count == 0 || copy.index_count == 0) continue;
         std::array<std::uint16_t, 4> block[kBlock];
-        std::fill(block, block + std::min(kBlock, copy.vertex_count), quantised(copy.tint));
+        std::fill(block, block + std::min(kBlock, copy.vertex_count), quantised(part.glows ? copy.tint : scene::Color{1, 1, 1}));
         for (std::size_t done = 0; done < copy.vertex_count; done += kBlock) append(out, block, std::min(kBlock, copy.vertex_count - done));
       }
     }

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 
 #include "compiler/base/check.h"
@@ -27,13 +29,14 @@ enum : int { kNearest = 9728, kLinear = 9729, kClampToEdge = 33071 };
 
 /// Where each bufferView and accessor stands in its list; the same rule writes them and refers to them.
 struct Numbering {
-  int uv = -1, color = -1, indices = 1, atlas = -1;   // bufferViews; positions are 0
-  int per_part = 2;                                   // accessors of a part: position, [uv], [colour], indices
+  int normal = -1, uv = -1, color = -1, indices = 1, atlas = -1;   // bufferViews; positions are 0
+  int per_part = 2;                                   // accessors of a part: position, [normal], [uv], [colour], indices
 };
 
 Numbering numbering(const Layout& layout) {
   Numbering n;
   int view = 1;
+  if (layout.has_normals) n.normal = view++, ++n.per_part;
   if (layout.has_uv) n.uv = view++, ++n.per_part;
   if (layout.has_color) n.color = view++, ++n.per_part;
   n.indices = view++;
@@ -92,6 +95,7 @@ void write_primitive(Json& json, const Layout& layout, std::size_t part, std::si
   const Numbering n = numbering(layout);
   int accessor = static_cast<int>(part) * n.per_part;
   json.object().key("attributes").object().key("POSITION").number(accessor++);
+  if (layout.has_normals) json.key("NORMAL").number(accessor++);
   if (layout.has_uv) json.key("TEXCOORD_0").number(accessor++);
   if (layout.has_color) json.key("COLOR_0").number(accessor++);
   json.end_object().key("indices").number(accessor).key("material").number(material).end_object();
@@ -100,7 +104,7 @@ void write_primitive(Json& json, const Layout& layout, std::size_t part, std::si
 /// All parts in one mesh.
 void write_joint_mesh(Json& json, const Layout& layout) {
   json.object().key("name").string("copies").key("primitives").array();
-  for (std::size_t p = 0; p < layout.parts.size(); ++p) write_primitive(json, layout, p, 0);
+  for (std::size_t p = 0; p < layout.parts.size(); ++p) write_primitive(json, layout, p, layout.parts[p].glows ? 0 : 1);
   json.end_array().end_object();
 }
 
@@ -121,29 +125,87 @@ void write_ranges(Json& json, const Product& product, const Layout& layout) {
   json.end_array().end_object();
 }
 
-/// The distinct weights, in order of first use, and which one each part has.
+/// The distinct materials, in order of first use, and which one each part has. A joint mesh has its weights per vertex.
 struct Tints {
-  std::vector<scene::Color> colors;
+  struct Material {
+    scene::Color color{1, 1, 1};
+    bool glows = true;
+  };
+  std::vector<Material> materials;
   std::vector<std::size_t> of_part;
 };
 
 Tints collect_tints(const Product& product, const Layout& layout, bool per_copy) {
   Tints tints;
-  if (!per_copy) return {{{1, 1, 1}}, std::vector<std::size_t>(layout.parts.size(), 0)};
-  std::map<std::array<double, 3>, std::size_t> known;
+  if (!per_copy) {
+    tints.materials.push_back({});
+    if (product.native) tints.materials.push_back({{1, 1, 1}, false});
+    return tints;
+  }
+  std::map<std::array<double, 4>, std::size_t> known;
   for (const Part& part : layout.parts) {
-    const scene::Color& c = product.copies[part.first_copy].tint;
-    const auto [entry, is_new] = known.try_emplace({c.r, c.g, c.b}, tints.colors.size());
-    if (is_new) tints.colors.push_back(c);
+    // Lamps bring the weights of the copies that they light.
+    const scene::Color c = part.glows ? product.copies[part.first_copy].tint : scene::Color{1, 1, 1};
+    const auto [entry, is_new] = known.try_emplace({c.r, c.g, c.b, part.glows ? 1.0 : 0.0}, tints.materials.size());
+    if (is_new) tints.materials.push_back({c, part.glows});
     tints.of_part.push_back(entry->second);
   }
   return tints;
 }
 
-void write_materials(Json& json, const Layout& layout, const Tints& tints, const std::string& atlas_uri, bool interpolate) {
+/// The lamps that are no image of another copy's.
+std::vector<driver::NativeLamp> own_lamps(const Product& product) {
+  std::vector<driver::NativeLamp> own;
+  if (product.native)
+    std::copy_if(product.native->lamps.begin(), product.native->lamps.end(), std::back_inserter(own), [](const driver::NativeLamp& l) { return l.own; });
+  return own;
+}
+
+bool is_cone(const driver::NativeLamp& lamp) {
+  return lamp.kind == scene::LampKind::spot || lamp.kind == scene::LampKind::disk || lamp.kind == scene::LampKind::rectangle;
+}
+
+/// KHR_lights_punctual: points and cones, in candela. A white surface, face on at distance r, is to show intensity/r²: that is I/(π r²) of a
+/// radiant intensity I, and at 683 lm/W, as Blender takes it, 683·π candela for each. Plates become the widest cones there are.
+void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
+  constexpr double kLumensPerWatt = 683;
+  json.key("extensions").object().key("KHR_lights_punctual").object().key("lights").array();
+  for (const driver::NativeLamp& lamp : lamps) {
+    const double most = scene::largest(lamp.intensity), whole = most > 0 ? most : 1;
+    json.object().key("type").string(is_cone(lamp) ? "spot" : "point");
+    json.key("color").numbers(floats((1 / whole) * lamp.intensity));
+    json.key("intensity").number(kLumensPerWatt * std::numbers::pi * most);
+    if (lamp.kind != scene::LampKind::tube && geometry::length(lamp.across) > 0)   // glTF knows no size; scripts/render_blender.py does
+      json.key("extras").object().key("orbc_radius").number(static_cast<float>(std::sqrt(geometry::length(lamp.across) * geometry::length(lamp.other)))).end_object();
+    if (is_cone(lamp)) {
+      const bool spot = lamp.kind == scene::LampKind::spot;
+      const double outer = spot ? std::min(std::acos(lamp.cone_outer), std::numbers::pi / 2) : std::numbers::pi / 2;
+      json.key("spot").object().key("innerConeAngle").number(spot ? std::min(std::acos(lamp.cone_inner), 0.999 * outer) : 0.0);
+      json.key("outerConeAngle").number(outer).end_object();
+    }
+    json.end_object();
+  }
+  json.end_array().end_object().end_object();
+}
+
+/// A lamp shines along its −z: columns of any frame whose third is against its axis, in glTF's axes.
+void write_lamp_node(Json& json, const driver::NativeLamp& lamp, std::size_t number) {
+  const Vector3 back = -1.0 * lamp.axis;
+  const Vector3 right = geometry::normalised(geometry::cross(std::fabs(back.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}, back));
+  json.object().key("name").string("lamp").key("matrix").array();
+  const auto column = [&](const Vector3& v, int last) { json.number(v.x).number(v.z).number(0 - v.y).number(last); };
+  column(right, 0);
+  column(geometry::cross(back, right), 0);
+  column(back, 0);
+  column(lamp.at, 1);
+  json.end_array().key("extensions").object().key("KHR_lights_punctual").object().key("light").number(number).end_object().end_object().end_object();
+}
+
+void write_materials(Json& json, const Layout& layout, const Tints& tints, const std::string& atlas_uri, bool interpolate, bool masked) {
   json.key("materials").array();
-  for (const scene::Color& tint : tints.colors) {
+  for (const auto& [tint, glows] : tints.materials) {
     json.object().key("name").string("atlas").key("doubleSided").boolean(true);
+    if (masked) json.key("alphaMode").string("MASK").key("alphaCutoff").number(0.5);
     json.key("pbrMetallicRoughness").object();
     if (layout.has_uv) json.key("baseColorTexture").object().key("index").number(0).end_object();
     if (tint.r != 1 || tint.g != 1 || tint.b != 1) {
@@ -151,8 +213,12 @@ void write_materials(Json& json, const Layout& layout, const Tints& tints, const
       for (const double v : {tint.r, tint.g, tint.b, 1.0}) json.number(std::clamp(v, 0.0, 1.0));
       json.end_array();
     }
-    json.key("metallicFactor").number(0).key("roughnessFactor").number(1).end_object();  // for viewers that do not know unlit
-    json.key("extensions").object().key("KHR_materials_unlit").object().end_object().end_object().end_object();
+    // Glowing: for viewers that do not know unlit. Lit: without its highlights Blender's principled surface is nearest to Lambert's at one half.
+    json.key("metallicFactor").number(0).key("roughnessFactor").number(glows ? 1 : 0.5).end_object();
+    json.key("extensions").object();
+    if (glows) json.key("KHR_materials_unlit").object().end_object();
+    else json.key("KHR_materials_specular").object().key("specularFactor").number(0).end_object();   // matte
+    json.end_object().end_object();
   }
   json.end_array();
   if (!layout.has_uv) return;
@@ -177,6 +243,7 @@ void write_accessors(Json& json, const Layout& layout) {
   for (const Part& part : layout.parts) {
     head(0, part.position_at, kFloat, part.vertex_count, "VEC3");
     json.key("min").numbers(part.low).key("max").numbers(part.high).end_object();
+    if (layout.has_normals) head(n.normal, part.normal_at, kFloat, part.vertex_count, "VEC3"), json.end_object();
     if (layout.has_uv) head(n.uv, part.uv_at, kFloat, part.vertex_count, "VEC2"), json.end_object();
     if (layout.has_color) {
       head(n.color, part.color_at, kUnsignedShort, part.vertex_count, "VEC4");
@@ -199,6 +266,7 @@ void write_buffers(Json& json, const Layout& layout, const std::string& bin_uri)
   };
   json.key("bufferViews").array();
   view(0, layout.position_bytes, 12, kArrayBuffer);
+  if (layout.has_normals) view(layout.normal_at, layout.normal_bytes, 12, kArrayBuffer);
   if (layout.has_uv) view(layout.uv_at, layout.uv_bytes, 8, kArrayBuffer);
   if (layout.has_color) view(layout.color_at, layout.color_bytes, 8, kArrayBuffer);
   view(layout.index_at, layout.index_bytes, 0, kElementArrayBuffer);
@@ -222,9 +290,18 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
   Json json(pen);
   json.object();
   json.key("asset").object().key("version").string("2.0").key("generator").string("orbc").end_object();
-  if (drawn) json.key("extensionsUsed").array().string("KHR_materials_unlit").end_array();
+  const std::vector<driver::NativeLamp> lamps = own_lamps(product);
+  if (drawn) {
+    json.key("extensionsUsed").array().string("KHR_materials_unlit");
+    if (product.native) json.string("KHR_materials_specular");
+    if (!lamps.empty()) json.string("KHR_lights_punctual");
+    json.end_array();
+  }
+  if (drawn && !lamps.empty()) write_lights(json, lamps);
   json.key("scene").number(0).key("scenes").array().object().key("name").string(product.title).key("nodes").array().number(0);
   if (drawn) json.number(1);
+  const std::size_t first_lamp = options.nodes_per_copy ? layout.parts.size() + 2 : 2;
+  for (std::size_t i = 0; drawn && i < lamps.size(); ++i) json.number(first_lamp + i);
   json.end_array().end_object().end_array();
 
   json.key("nodes").array();
@@ -241,6 +318,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
       json.end_object().end_object();
     }
   }
+  for (std::size_t i = 0; drawn && i < lamps.size(); ++i) write_lamp_node(json, lamps[i], i);
   json.end_array();
   write_camera(json, product);
 
@@ -253,7 +331,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
       json.end_array().end_object();
     }
     json.end_array();
-    write_materials(json, layout, tints, uris.atlas, options.interpolate || product.blended_atlas);
+    write_materials(json, layout, tints, uris.atlas, options.interpolate || product.blended_atlas, product.masked);
     write_accessors(json, layout);
     write_buffers(json, layout, uris.bin);
     if (!options.nodes_per_copy) write_ranges(json, product, layout);
@@ -298,13 +376,19 @@ std::string make_glb(const Product& product, const Layout& layout, const std::st
   return out;
 }
 
+std::string atlas_png(const Product& product) {
+  ORBC_CHECK(static_cast<int>(product.depth), !=, static_cast<int>(scene::AtlasDepth::exr));
+  if (product.deep_atlas.rgb.empty()) return mesh::encode_png(product.atlas);
+  return mesh::encode_png(product.deep_atlas, product.masked ? &product.atlas : nullptr);
+}
+
 }  // namespace
 
 std::vector<driver::File> write_gltf(const Product& product, const GltfOptions& options) {
   ORBC_CHECK(product.uv.size(), ==, product.positions.size());
   const bool drawn = std::any_of(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.vertex_count && c.index_count; });
   std::string png;
-  if (drawn && !product.atlas.rgba.empty()) png = mesh::encode_png(product.atlas);
+  if (drawn && !product.atlas.rgba.empty()) png = atlas_png(product);
   const Layout layout = make_layout(product, options.nodes_per_copy, options.binary ? png.size() : 0);
 
   std::vector<driver::File> files;

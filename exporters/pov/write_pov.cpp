@@ -3,7 +3,9 @@
 // by POV-Ray) times `emission`, in linear light, encoded again on output; nothing else may shine.
 #include "exporters/pov/write_pov.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "compiler/base/check.h"
 #include "compiler/mesh/image.h"
@@ -35,7 +37,7 @@ void write_head(Pen& pen, const driver::Product& product, const PovOptions& opti
     pen << "// Draw from this folder: povray +I" << exporters::one_line(options.name) << ".pov +W" << product.eye.width << " +H"
         << product.eye.height << " -D -A +FN8\n";
   }
-  pen << "#version 3.7;\nglobal_settings { assumed_gamma 1.0 adc_bailout 0 max_trace_level 5 }\n";
+  pen << "#version 3.7;\nglobal_settings { assumed_gamma 1.0 adc_bailout 0 max_trace_level " << (product.masked ? 256 : 5) << " }\n";
   pen << "background { rgb " << product.background << " }\n";
 }
 
@@ -64,14 +66,75 @@ void write_camera(Pen& pen, const driver::Product& product) {
   pen << "}\n";
 }
 
-void write_atlas_pigment(Pen& pen, const driver::Product& product, const std::string& atlas_name, const PovOptions& options) {
-  pen << "#declare OrbcAtlas = pigment { ";
-  if (product.atlas.rgba.empty()) {
-    pen << "rgb 1";
+/// The files beside the scene: the atlas, and of one with holes a mask. What is in a hole is decided after blending, at one half: so edges
+/// stay sharp, and no colour of a hole shows at them.
+struct AtlasFiles {
+  driver::File atlas, mask;
+};
+
+AtlasFiles atlas_files(const driver::Product& product, const std::string& name) {
+  AtlasFiles files;
+  if (product.atlas.rgba.empty()) return files;
+  const bool exr = product.depth == scene::AtlasDepth::exr;
+  files.atlas.name = name + (exr ? "-atlas.exr" : "-atlas.png");
+  if (product.deep_atlas.rgb.empty()) {
+    mesh::Image opaque = product.atlas;
+    for (std::size_t i = 3; i < opaque.rgba.size(); i += 4) opaque.rgba[i] = 255;
+    files.atlas.bytes = mesh::encode_png(opaque);
   } else {
-    pen << "uv_mapping image_map { png \"" << atlas_name << "\"" << (options.interpolate || product.blended_atlas ? " interpolate 2" : "") << " }";
+    files.atlas.bytes = exr ? mesh::encode_exr(product.deep_atlas) : mesh::encode_png(product.deep_atlas);
+  }
+  if (product.masked) files.mask = {name + "-mask.png", mesh::encode_mask(product.atlas)};
+  return files;
+}
+
+void write_atlas_pigment(Pen& pen, const driver::Product& product, const AtlasFiles& files, const PovOptions& options) {
+  const char* lookup = options.interpolate || product.blended_atlas ? " interpolate 2" : "";
+  const char* kind = product.depth == scene::AtlasDepth::exr ? "exr" : "png";
+  pen << "#declare OrbcAtlas = pigment { ";
+  if (files.atlas.name.empty()) {
+    pen << "rgb 1";
+  } else if (files.mask.name.empty()) {
+    pen << "uv_mapping image_map { " << kind << " \"" << files.atlas.name << "\"" << lookup << " }";
+  } else {
+    pen << "uv_mapping image_pattern { png \"" << files.mask.name << "\"" << lookup << " } pigment_map { [0.5 rgbt 1] [0.5 image_map { " << kind << " \""
+        << files.atlas.name << "\"" << lookup << " }] }";
   }
   pen << " }\n";
+}
+
+constexpr double kFadeDistance = 1e-3;  // 2/(1 + (r/D)²) is 2D²/r² to 1/10,000 from r = 100 D on
+constexpr int kGrid = 7;                // points of an area light in each direction
+
+double degrees_of(double cosine) { return std::acos(std::clamp(cosine, 0.0, 1.0)) * 180 / std::numbers::pi; }
+
+/// A white surface, face on at distance r, is to show intensity/r²; POV-Ray shows colour × 2/(1 + (r/D)²).
+void write_lamp(Pen& pen, const driver::NativeLamp& lamp) {
+  using scene::LampKind;
+  const double gain = lamp.fades ? 1 / (2 * kFadeDistance * kFadeDistance) : 1;
+  pen << "light_source { " << lamp.at << " rgb " << gain * lamp.intensity;
+  const bool one_sided = lamp.kind == LampKind::rectangle || lamp.kind == LampKind::disk;
+  if (lamp.kind == LampKind::spot) {
+    pen << " spotlight point_at " << lamp.at + lamp.axis << " radius " << degrees_of(lamp.cone_inner) << " falloff " << degrees_of(lamp.cone_outer) << " tightness 0";
+  } else if (one_sided) {  // the cosine of a Lambertian plate
+    pen << " spotlight point_at " << lamp.at + lamp.axis << " radius 90 falloff 90 tightness 1";
+  }
+  if (lamp.kind == LampKind::tube) {
+    pen << " area_light " << 2.0 * lamp.across << ", <0,0,0.001>, " << kGrid * 2 << ", 1 area_illumination on";
+  } else if (one_sided || lamp.kind == LampKind::sphere) {
+    pen << " area_light " << 2.0 * lamp.across << ", " << 2.0 * lamp.other << ", " << kGrid << ", " << kGrid;
+    if (lamp.kind != LampKind::rectangle) pen << " circular";
+    if (lamp.kind == LampKind::sphere) pen << " orient";
+    pen << " area_illumination on";
+  }
+  if (lamp.fades) pen << " fade_power 2 fade_distance " << kFadeDistance;
+  pen << " }\n";
+}
+
+/// The finish by which the pigment becomes light.
+void write_finish(Pen& pen, const driver::Product& product, const driver::DrawnCopy& copy) {
+  if (product.native && copy.shine == driver::Shine::lit) pen << "finish { emission rgb " << copy.tint * product.native->ambient << " ambient 0 diffuse 1 }";
+  else pen << "finish { emission rgb " << copy.tint << " ambient 0 diffuse 0 }";
 }
 
 void write_copy(Pen& pen, const driver::Product& product, const driver::DrawnCopy& copy, std::size_t number) {
@@ -92,6 +155,13 @@ void write_copy(Pen& pen, const driver::Product& product, const driver::DrawnCop
     const auto& t = product.uv[copy.first_vertex + i];
     pen << ",\n<" << t[0] << ',' << 1 - t[1] << '>';  // POV-Ray counts v from the bottom row
   }
+  if (!product.normals.empty()) {
+    pen << " }\nnormal_vectors { " << copy.vertex_count;
+    for (std::size_t i = 0; i < copy.vertex_count; ++i) {
+      const auto& n = product.normals[copy.first_vertex + i];
+      pen << ",\n<" << n[0] << ',' << n[1] << ',' << n[2] << '>';
+    }
+  }
   pen << " }\nface_indices { " << copy.index_count / 3;
   for (std::size_t i = copy.first_index; i < copy.first_index + copy.index_count; i += 3) {
     std::size_t corner[3];
@@ -101,36 +171,54 @@ void write_copy(Pen& pen, const driver::Product& product, const driver::DrawnCop
     }
     pen << ",\n<" << corner[0] << ',' << corner[1] << ',' << corner[2] << '>';
   }
-  pen << " }\nuv_mapping\ntexture { pigment { OrbcAtlas } finish { emission rgb " << copy.tint << " ambient 0 diffuse 0 } }\n}\n";
+  pen << " }\nuv_mapping\ntexture { pigment { OrbcAtlas } ";
+  write_finish(pen, product, copy);
+  pen << " }" << (copy.shine == driver::Shine::lamp ? " no_shadow" : "") << "\n}\n";
+}
+
+/// A copy that is lit by lamps of its own alone: in a light group, where everything casts shadows, but only what is in it is lit.
+void write_lit_copy(Pen& pen, const driver::Product& product, std::size_t number, std::size_t& next_lamp) {
+  const auto& lamps = product.native->lamps;
+  const driver::DrawnCopy& copy = product.copies[number];
+  const bool drawn = copy.vertex_count > 0 && copy.index_count > 0 && next_lamp < lamps.size() && lamps[next_lamp].copy == number;
+  if (drawn) pen << "light_group {\n";
+  for (; next_lamp < lamps.size() && lamps[next_lamp].copy == number; ++next_lamp)
+    if (drawn) write_lamp(pen, lamps[next_lamp]);
+  write_copy(pen, product, copy, number);
+  if (drawn) pen << "global_lights off\n}\n";
 }
 
 }  // namespace
 
 std::vector<driver::File> write_pov(const driver::Product& product, const PovOptions& options) {
   ORBC_CHECK(product.uv.size(), ==, product.positions.size());
-  const std::string atlas_name = exporters::plain_name(options.name) + "-atlas.png";
-  std::string png;
-  if (!product.atlas.rgba.empty()) png = mesh::encode_png(product.atlas);
+  AtlasFiles beside = atlas_files(product, exporters::plain_name(options.name));
 
   std::string scene;
   // Measured: 31 bytes a position, 19 a uv, 22 a triangle; a little more is cheap, a second growth of the string is not.
   scene.reserve(4096 + 256 * product.copies.size() + 54 * product.positions.size() + 9 * product.indices.size() +
-                (options.inline_atlas ? png.size() / 3 * 4 + png.size() / 64 : 0));
+                (options.inline_atlas ? beside.atlas.bytes.size() / 3 * 4 + beside.atlas.bytes.size() / 64 : 0));
   {
     Pen pen(scene);
     write_head(pen, product, options);
     write_camera(pen, product);
-    write_atlas_pigment(pen, product, atlas_name, options);
-    for (std::size_t i = 0; i < product.copies.size(); ++i) write_copy(pen, product, product.copies[i], i);
-    if (options.inline_atlas && !png.empty()) {
-      pen << "/* orbc-file " << atlas_name << " base64\n";
-      write_base64(pen, png);
+    write_atlas_pigment(pen, product, beside, options);
+    std::size_t next_lamp = 0;
+    for (std::size_t i = 0; i < product.copies.size(); ++i) {
+      if (product.native) write_lit_copy(pen, product, i, next_lamp);
+      else write_copy(pen, product, product.copies[i], i);
+    }
+    for (const driver::File* file : {&beside.mask, &beside.atlas}) {
+      if (!options.inline_atlas || file->name.empty()) continue;
+      pen << "/* orbc-file " << file->name << " base64\n";
+      write_base64(pen, file->bytes);
       pen << "*/\n";
     }
   }
   std::vector<driver::File> files;
   files.push_back({"", std::move(scene)});
-  if (!options.inline_atlas && !png.empty()) files.push_back({atlas_name, std::move(png)});
+  for (driver::File* file : {&beside.mask, &beside.atlas})
+    if (!options.inline_atlas && !file->name.empty()) files.push_back(std::move(*file));
   return files;
 }
 

@@ -90,6 +90,44 @@ TEST_CASE("two squares become one primitive with the weights in its vertices", "
   CHECK(glb.bin.substr(248, png.size()) == png);
 }
 
+TEST_CASE("copies that lamps light are matte and white, what glows keeps its weight, and every lamp is a node", "[gltf]") {
+  driver::Product product = test::two_squares();
+  product.normals.assign(product.positions.size(), {-1, 0, 0});
+  product.copies[0].tint = {0.5, 0.5, 0.5};
+  product.copies[1].shine = driver::Shine::glowing;
+  product.native.emplace();
+  driver::NativeLamp lamp;
+  lamp.at = {1, 2, 3}, lamp.intensity = {0.5, 1, 0.25};
+  product.native->lamps.push_back(lamp);
+  lamp.own = false;
+  product.native->lamps.push_back(lamp);
+  const Glb glb = split(gltf::write_gltf(product)[0].bytes);
+  CHECK(contains(glb.json, R"("extensionsUsed":["KHR_materials_unlit","KHR_materials_specular","KHR_lights_punctual"])"));
+  CHECK(contains(glb.json, R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[0.5,1,0.25],"intensity":2145.7)"));
+  CHECK(contains(glb.json, R"("nodes":[0,1,2]})"));
+  CHECK(contains(glb.json, R"(1,3,-2,1],"extensions":{"KHR_lights_punctual":{"light":0}}})"));
+  CHECK(contains(glb.json, R"({"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"COLOR_0":3},"indices":4,"material":1},)"));
+  CHECK(contains(glb.json, R"("indices":9,"material":0})"));
+  const std::size_t colors = 8 * (12 + 12 + 8);
+  CHECK(at<float>(glb.bin, 8 * 12) == -1.0f);
+  CHECK(at<std::uint16_t>(glb.bin, colors) == 65535);               // lit: its lamp brings the weight
+  CHECK(at<std::uint16_t>(glb.bin, colors + 4 * 8) == 53083);       // glowing: 0.81
+}
+
+TEST_CASE("an atlas with holes is a mask at one half, and one of sixteen bits is a PNG of sixteen bits", "[gltf]") {
+  driver::Product product = test::two_squares();
+  product.masked = true;
+  product.atlas.rgba[3] = 0;
+  const Glb glb = split(gltf::write_gltf(product)[0].bytes);
+  CHECK(contains(glb.json, R"("alphaMode":"MASK","alphaCutoff":0.5)"));
+  CHECK(mesh::decode_png(glb.bin.substr(248)).value().rgba[3] == 0);
+  product.depth = scene::AtlasDepth::sixteen;
+  product.deep_atlas = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
+  const std::string png = split(gltf::write_gltf(product)[0].bytes).bin.substr(248);
+  CHECK(png[24] == 16);
+  CHECK(mesh::decode_png(png).value().rgba == std::vector<std::uint8_t>{255, 128, 0, 0, 10, 20, 30, 255});
+}
+
 TEST_CASE("indices need four bytes from 65536 vertices on", "[gltf]") {
   for (const std::size_t vertices : {std::size_t{65535}, std::size_t{65536}}) {
     driver::Product product = test::empty_product();

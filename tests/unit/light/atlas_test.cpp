@@ -180,3 +180,56 @@ TEST_CASE("many pictures are packed without overlap, the same way each time", "[
     CHECK(nearest(atlas.image, uv[t[2]][0] + dx, uv[t[2]][1] - dy) == texel(image, 0, image.height - 1));
   }
 }
+
+TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight", "[light]") {
+  place::PlacedRoom room = textured(place::PartKind::object, noise(16, 16, 7), {0.61, 0.37, 0.083});
+  for (int i = 0; i < 64; ++i) {
+    room.looks.push_back({{0.0003 * i * i, 0.01 + 0.003 * i, 0.9 / (i + 1)}, -1, {}});
+    place::PlacedMesh part = room.parts[0];
+    part.look = {static_cast<std::uint16_t>(i + 1), static_cast<std::uint16_t>(i + 1)};
+    room.parts.push_back(part);
+  }
+  light::AtlasOptions options;
+  CHECK(make_atlas(room, options).value().deep.rgb.empty());
+  options.deep = true;
+  const Atlas atlas = make_atlas(room, options).value();
+  REQUIRE(atlas.deep.rgb.size() == atlas.image.rgba.size() / 4 * 3);
+  double worst_8 = 0, worst_16 = 0;
+  const auto judge = [&](double u, double v, const scene::Color& wanted) {
+    const std::size_t at = static_cast<std::size_t>(v * atlas.image.height) * static_cast<std::size_t>(atlas.image.width) + static_cast<std::size_t>(u * atlas.image.width);
+    const double own[] = {wanted.r, wanted.g, wanted.b};
+    for (std::size_t c = 0; c < 3; ++c) {
+      worst_8 = std::max(worst_8, std::fabs(scene::decode_srgb(atlas.image.rgba[4 * at + c] / 255.0) - own[c]));
+      worst_16 = std::max(worst_16, std::fabs(scene::decode_srgb(atlas.deep.rgb[3 * at + c] / 65535.0) - own[c]));
+    }
+  };
+  for (std::size_t p = 1; p < room.parts.size(); ++p) judge(atlas.uv[p][0][0], atlas.uv[p][0][1], room.looks[p].color);
+  const auto& uv = atlas.uv[0];
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      const Texel own = texel(room.textures[0], x, y);
+      const double s = (x + 0.5) / 16, t = (y + 0.5) / 16;
+      judge((1 - s) * uv[0][0] + s * uv[1][0], (1 - t) * uv[0][1] + t * uv[2][1],
+            room.looks[0].color * scene::Color{scene::decode_srgb(own[0] / 255.0), scene::decode_srgb(own[1] / 255.0), scene::decode_srgb(own[2] / 255.0)});
+    }
+  CHECK(worst_8 > 1e-3);
+  CHECK(worst_16 < 2e-5);   // half a step of 1/65535, at most 2.3 of them in linear light
+}
+
+TEST_CASE("holes of a picture are transparent in the atlas, and only there is anything so", "[light]") {
+  mesh::Image image = noise(20, 12, 3);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = static_cast<std::uint8_t>(i * 37 % 256);
+  place::PlacedRoom room = textured(place::PartKind::object, image, {1, 1, 1});
+  for (const double cutoff : {-1.0, 0.25, 0.5}) {
+    room.looks[0].cutoff = cutoff;
+    const Atlas atlas = make_atlas(room).value();
+    const auto& uv = atlas.uv[0];
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const double s = (x + 0.5) / image.width, t = (y + 0.5) / image.height;
+        const Texel got = nearest(atlas.image, (1 - s) * uv[0][0] + s * uv[1][0], (1 - t) * uv[0][1] + t * uv[2][1]), own = texel(image, x, y);
+        REQUIRE(got[3] == (own[3] < cutoff * 255 ? 0 : 255));
+        REQUIRE(got[0] == own[0]);
+      }
+  }
+}

@@ -221,6 +221,19 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   const light::Baked baked = light::bake(l.room, l.field, options, serial_executor()).value();
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) { for (std::size_t i = count; i-- > 0;) task(i); };
   CHECK(light::bake(l.room, l.field, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
+  CHECK(baked.atlas.deep.rgb.empty());
+  options.deep = true;
+  const light::Atlas deep = light::bake(l.room, l.field, options, serial_executor())->atlas;
+  REQUIRE(deep.image.rgba == baked.atlas.image.rgba);
+  REQUIRE(deep.deep.rgb.size() == deep.image.rgba.size() / 4 * 3);
+  std::size_t finer = 0;
+  double apart = 0;   // in steps of 8 bits: both are the same light, rounded
+  for (std::size_t i = 0; i < deep.deep.rgb.size(); ++i) {
+    apart = std::max(apart, std::fabs(deep.deep.rgb[i] / 257.0 - deep.image.rgba[i / 3 * 4 + i % 3]));
+    finer += deep.deep.rgb[i] % 257 != 0;
+  }
+  CHECK(apart <= 0.502);
+  CHECK(finer > deep.deep.rgb.size() / 2);
   int far_off = 0, asked = 0;
   const mesh::Image& image = baked.atlas.image;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {

@@ -158,6 +158,54 @@ TEST_CASE("an atlas of baked light is looked up bilinearly, flat colours are not
   CHECK(contains(pov::write_pov(product)[0].bytes, "-atlas.png\" interpolate 2 }"));
 }
 
+TEST_CASE("a copy with lamps of its own is a light group, what glows is not, and a lamp's body casts no shadow", "[pov]") {
+  driver::Product product = test::two_squares();
+  product.normals.assign(product.positions.size(), {-1, 0, 0});
+  product.copies[1].shine = driver::Shine::lamp;
+  product.native.emplace();
+  product.native->ambient = {0.5, 0.5, 0.5};
+  driver::NativeLamp lamp;
+  lamp.at = {1, 2, 3}, lamp.intensity = {0.001, 0.002, 0.003};
+  product.native->lamps.push_back(lamp);
+  lamp.kind = scene::LampKind::spot, lamp.fades = false, lamp.cone_inner = 1, lamp.cone_outer = 0.5;
+  product.native->lamps.push_back(lamp);
+  const std::string text = pov::write_pov(product)[0].bytes;
+  CHECK(count(text, "light_group {") == 1);
+  CHECK(count(text, "light_source {") == 2);
+  CHECK(contains(text, "light_source { <1,2,3> rgb <500,1000,1500> fade_power 2 fade_distance 0.001 }"));
+  CHECK(contains(text, "spotlight point_at <1,2,2> radius 0 falloff 60"));
+  CHECK(contains(text, "finish { emission rgb <0.5,0.5,0.5> ambient 0 diffuse 1 } }\n}\nglobal_lights off"));
+  CHECK(contains(text, "finish { emission rgb <0.81,0.6561,0.5> ambient 0 diffuse 0 } } no_shadow"));
+  CHECK(count(text, "normal_vectors { 4") == 2);
+}
+
+TEST_CASE("an atlas with holes has a mask beside it, one of more bits its own file", "[pov]") {
+  driver::Product product = test::two_squares();
+  product.masked = true;
+  product.atlas.rgba[3] = 0;
+  const auto masked = pov::write_pov(product, {.name = "leaf"});
+  REQUIRE(masked.size() == 3);
+  CHECK(contains(masked[0].bytes, "image_pattern { png \"leaf-mask.png\" } pigment_map { [0.5 rgbt 1] [0.5 image_map { png \"leaf-atlas.png\" }] }"));
+  const mesh::Image mask = mesh::decode_png(masked[1].bytes).value(), atlas = mesh::decode_png(masked[2].bytes).value();
+  CHECK((mask.rgba[0] == 0 && mask.rgba[4] == 255));
+  CHECK((atlas.rgba[0] == 255 && atlas.rgba[3] == 255));
+  const std::string piped = pov::write_pov(product, {.name = "leaf", .inline_atlas = true})[0].bytes;
+  CHECK(count(piped, "/* orbc-file leaf-") == 2);
+
+  product.masked = false;
+  product.depth = scene::AtlasDepth::sixteen;
+  product.deep_atlas = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
+  const auto deep = pov::write_pov(product, {.name = "deep"});
+  CHECK(deep[1].name == "deep-atlas.png");
+  CHECK(deep[1].bytes[24] == 16);   // bit depth in IHDR
+  CHECK(mesh::decode_png(deep[1].bytes).value().rgba == std::vector<std::uint8_t>{255, 128, 0, 255, 10, 20, 30, 255});
+  product.depth = scene::AtlasDepth::exr;
+  const auto exr = pov::write_pov(product, {.name = "deep"});
+  CHECK(exr[1].name == "deep-atlas.exr");
+  CHECK(exr[1].bytes.substr(0, 4) == "\x76\x2f\x31\x01");
+  CHECK(contains(exr[0].bytes, "image_map { exr \"deep-atlas.exr\" }"));
+}
+
 TEST_CASE("titles and names cannot break out of comments and strings", "[pov]") {
   driver::Product product = test::two_squares();
   product.title = "*22\n#error \"x\"\r*/";
