@@ -15,9 +15,9 @@ MATERIALS = [
     'marble', 'granite', 'wood', 'porcelain',
     'gold', 'copper', 'silver', 'chrome',
     'mirror', 'glass', 'plaster', 'coral',
-    '{kind: glossy, color: coral}', '{kind: metal, color: steelblue}', '{kind: emissive, color: gold}', '{checker: [ivory, brown], cell: 0.06}',
+    '{kind: glossy, color: coral}', '{kind: metal, color: steelblue}', '{kind: emissive, color: gold, emission: 0.9}', '{checker: [ivory, brown], cell: 0.06}',
 ]
-SIZE, COLUMNS, LABEL, GAP = (184, 150), 4, 18, 6
+SIZE, COLUMNS, LABEL, GAP = (176, 132), 4, 18, 6
 
 SCENE = """orbc: 1
 orbifold: "*2222"
@@ -33,19 +33,19 @@ room:
 objects:
   - torus_knot: {{p: 2, q: 3, radius: 0.13, tube: 0.045}}
     name: knot
-    at: {{polar: [0.24, 150deg], z: 0.02}}
+    at: {{polar: [0.2, 140deg], z: 0.02}}
     turn: 20deg
     material: {material}
   - sphere: {{radius: 0.17}}
     name: ball
-    at: {{polar: [0.2, 330deg]}}
+    at: {{polar: [0.22, 325deg]}}
     material: {material}
 lights:
-  - {{kind: sphere, at: {{polar: [0.5, 250deg], z: 1.15}}, radius: 0.08, power: 16}}
+  - {{kind: sphere, at: {{polar: [0.5, 250deg], z: 1.15}}, radius: 0.08, power: 20}}
   - {{kind: sphere, at: {{polar: [0.5, 100deg], z: 1.0}}, radius: 0.05, power: 5, color: "#dce8ff"}}
 ambient: "#5a5a60"
 bake: {{mirrors: 1}}
-camera: {{at: {{polar: [0.74, 240deg], z: 0.55}}, look_at: {{polar: [0.02, 60deg], z: 0.16}}, fov: 46deg, size: [{width}, {height}]}}
+camera: {{at: {{polar: [0.74, 240deg], z: 0.55}}, look_at: {{polar: [0.02, 60deg], z: 0.16}}, fov: 58deg, size: [{width}, {height}]}}
 cover: {{max_bounces: 4}}
 """
 
@@ -72,8 +72,7 @@ def main():
             sheet.paste(thumbnail(orbc, material, pathlib.Path(folder)), (x, y))
             text = material.strip('{}').replace(', cell: 0.06', '')
             pen.text((x + SIZE[0] / 2 - pen.textlength(text, font=font) / 2, y + SIZE[1] + 2), text, fill='black', font=font)
-    # 128 colours hold it in a quarter of the bytes.
-    sheet.quantize(192, dither=Image.Dither.FLOYDSTEINBERG).save(out, optimize=True)
+    sheet.save(out, optimize=True)
 
 
 main()

@@ -48,10 +48,8 @@ def verified(path, threshold, name, *more):
     if ended.returncode:
         sys.exit(ended.stderr.decode())
     for got in json.loads(ended.stdout):
-        # What differs lies on edges: of things, and of holes.
-        agree = got['within_4'] + got['beyond_2_on_edges'] / got['pixels']
-        check(agree >= threshold and got['within_4'] >= 0.96,
-              f"{name}: {got['engine']} {100 * got['within_4']:.2f} % within 4/255, {100 * agree:.2f} % with edges, mean {got['mean']:.3f}")
+        off = got['beyond_2_elsewhere'] / got['pixels']   # what differs lies on edges: of things, of holes, of their shadows
+        check(off <= 0.01 and got['within_4'] >= threshold, f"{name}: {got['engine']} {100 * got['within_4']:.2f} % within 4/255, {100 * off:.2f} % beyond 2/255 off edges, mean {got['mean']:.3f}")
 
 
 with folder() as where:
@@ -65,13 +63,15 @@ with folder() as where:
         path.write_text(SCENE.format(notation=notation, lights=lights))
         return path
 
-    verified(scene('*2222'), 0.99, 'unlit-2222', *blender)
-    verified(scene('*22222'), 0.99, 'unlit-22222')
+    verified(scene('*2222'), 0.999, 'unlit-2222', *blender)
+    verified(scene('*22222'), 0.997, 'unlit-22222')
     for notation in ('*222', '*333', '*22222'):
-        verified(scene(notation, LAMP), 0.99, f'lit-{notation[1:]}')
-    verified(scene('*2222', LAMP), 0.98, 'native', '--lights', 'native')
-    verified(scene('*333', LAMP), 0.99, 'sixteen', '--atlas', '16', *blender)
-    verified(scene('*333', LAMP), 0.99, 'exr', '--atlas', 'exr')
+        verified(scene(notation, LAMP), 0.97, f'lit-{notation[1:]}')
+    front = scene('*2222', LAMP)   # renderers light the side that is seen, orbc the front of what has two
+    front.write_text(front.read_text().replace('turn: 60deg', 'turn: 300deg'))
+    verified(front, 0.98, 'native', '--lights', 'native')
+    verified(scene('*333', LAMP), 0.97, 'sixteen', '--atlas', '16', *blender)
+    verified(scene('*333', LAMP), 0.97, 'exr', '--atlas', 'exr')
 
     if shutil.which('node') and (ROOT / 'node_modules/gltf-validator').is_dir():
         for depth in ('8', '16'):

@@ -184,7 +184,7 @@ TEST_CASE("many pictures are packed without overlap, the same way each time", "[
 TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight", "[light]") {
   place::PlacedRoom room = textured(place::PartKind::object, noise(16, 16, 7), {0.61, 0.37, 0.083});
   for (int i = 0; i < 64; ++i) {
-    room.looks.push_back({{0.0003 * i * i, 0.01 + 0.003 * i, 0.9 / (i + 1)}, -1, {}});
+    room.looks.push_back({{0.0002 * i * i, 0.01 + 0.003 * i, 0.9 / (i + 1)}, -1, {}});
     place::PlacedMesh part = room.parts[0];
     part.look = {static_cast<std::uint16_t>(i + 1), static_cast<std::uint16_t>(i + 1)};
     room.parts.push_back(part);
