@@ -63,14 +63,14 @@ def main():
     sheet = Image.new('RGB', (COLUMNS * (SIZE[0] + GAP) - GAP, rows * (SIZE[1] + LABEL + GAP) - GAP), 'white')
     pen = ImageDraw.Draw(sheet)
     try:
-        font = ImageFont.truetype('DejaVuSans.ttf', 11)
+        font = ImageFont.truetype('DejaVuSans.ttf', 10)
     except OSError:
         font = ImageFont.load_default()
     with tempfile.TemporaryDirectory() as folder:
         for i, material in enumerate(MATERIALS):
             x, y = i % COLUMNS * (SIZE[0] + GAP), i // COLUMNS * (SIZE[1] + LABEL + GAP)
             sheet.paste(thumbnail(orbc, material, pathlib.Path(folder)), (x, y))
-            text = material.strip('{}').replace(', cell: 0.06', '')
+            text = material.strip('{}').replace(', cell: 0.06', '').replace(', emission: 0.9', '')
             pen.text((x + SIZE[0] / 2 - pen.textlength(text, font=font) / 2, y + SIZE[1] + 2), text, fill='black', font=font)
     sheet.save(out, optimize=True)
 

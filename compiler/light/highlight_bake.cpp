@@ -413,25 +413,6 @@ OwnUv own_uv(const Shining& shining, const Baked& baked) {
   return own;
 }
 
-void draw(const Finished& f, Atlas& atlas) {
-  mesh::Image& image = atlas.image;
-  mesh::DeepImage& deep = atlas.deep;
-  for (int y = 0; y < f.box.height; ++y)
-    for (int x = 0; x < f.box.width; ++x) {
-      const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.box.width) + static_cast<std::size_t>(x);
-      const std::size_t at = static_cast<std::size_t>(f.box.y + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(f.box.x + x);
-      const Color& c = f.shown[from];
-      std::uint8_t* to = image.rgba.data() + 4 * at;
-      to[0] = static_cast<std::uint8_t>(std::lround(255 * c.r)), to[1] = static_cast<std::uint8_t>(std::lround(255 * c.g));
-      to[2] = static_cast<std::uint8_t>(std::lround(255 * c.b));
-      if (!f.holes.empty()) to[3] = f.holes[from] ? 0 : 255;
-      if (deep.rgb.empty()) continue;
-      std::uint16_t* fine = deep.rgb.data() + 3 * at;
-      fine[0] = static_cast<std::uint16_t>(std::lround(65535 * c.r)), fine[1] = static_cast<std::uint16_t>(std::lround(65535 * c.g));
-      fine[2] = static_cast<std::uint16_t>(std::lround(65535 * c.b));
-    }
-}
-
 }  // namespace
 
 bool needs_highlights(const place::PlacedRoom& room, const LightField& field) {
@@ -492,7 +473,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
   enlarge(baked, (*size)[0], (*size)[1]);
   for (const Shining& shining : all) {
     if (result.own.empty() || result.own.back().copy != shining.copy) ++result.counts.copies;
-    for (const Finished& f : shining.blocks) draw(f, baked.atlas);
+    for (const Finished& f : shining.blocks) put(f.box, f.shown, f.holes, baked.atlas);
     result.own.push_back(own_uv(shining, baked));
   }
   return result;

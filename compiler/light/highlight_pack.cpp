@@ -1,6 +1,7 @@
 #include "compiler/light/highlight_pack.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace orbc::light {
 
@@ -45,6 +46,21 @@ void enlarge(Baked& baked, int width, int height) {
     atlas.deep = std::move(finer);
   }
   atlas.image = std::move(larger);
+}
+
+void put(const Box& box, const std::vector<scene::Color>& shown, const std::vector<std::uint8_t>& holes, Atlas& atlas) {
+  mesh::Image& image = atlas.image;
+  for (int y = 0; y < box.height; ++y)
+    for (int x = 0; x < box.width; ++x) {
+      const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x);
+      const std::size_t at = static_cast<std::size_t>(box.y + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(box.x + x);
+      const double channels[] = {shown[from].r, shown[from].g, shown[from].b};
+      for (std::size_t k = 0; k < 3; ++k) {
+        image.rgba[4 * at + k] = static_cast<std::uint8_t>(std::lround(255 * channels[k]));
+        if (!atlas.deep.rgb.empty()) atlas.deep.rgb[3 * at + k] = static_cast<std::uint16_t>(std::lround(65535 * channels[k]));
+      }
+      if (!holes.empty()) image.rgba[4 * at + 3] = holes[from] ? 0 : 255;
+    }
 }
 
 }  // namespace orbc::light

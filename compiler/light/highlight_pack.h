@@ -14,4 +14,7 @@ namespace orbc::light {
 /// Gives the atlas more room to the right and below, and moves the places in it. In: a size not smaller than before.
 void enlarge(Baked& baked, int width, int height);
 
+/// Writes the texels of a box into the atlas: encoded colours 0…1, and, where there are any, which are holes.
+void put(const Box& box, const std::vector<scene::Color>& shown, const std::vector<std::uint8_t>& holes, Atlas& atlas);
+
 }  // namespace orbc::light

@@ -89,7 +89,7 @@ void read_mask(const Fields& fields, Material& material) {
   if (!node) return fields.no_effect("cutoff", "it says where an `opacity_mask` has holes, and there is none");
   Reader& reader = fields.reader();
   if (auto path = reader.text(*node, "`opacity_mask`")) material.opacity_mask = {*path, node->span};
-  const auto conflict = [&](const char* what) { reader.error("scene.conflict", fields.key_span("opacity_mask"), fmt::format("an `opacity_mask` does not go with {}", what), "keep one of the two"); };
+  const auto conflict = [&](const char* what) { reader.error("scene.cannot-be-masked", fields.key_span("opacity_mask"), fmt::format("an `opacity_mask` does not go with {}", what), "keep one of the two"); };
   if (material.kind == MaterialKind::mirror || material.kind == MaterialKind::glass) conflict("mirror and glass");
   if (material.pattern != Pattern::plain && material.pattern != Pattern::texture) conflict("solid patterns");
 }
