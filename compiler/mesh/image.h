@@ -26,7 +26,7 @@ struct ImageLimits {
 [[nodiscard]] std::string encode_png(const Image& image);
 
 /// A picture of 16 bits a channel as PNG, its codes sRGB as they are; with the alpha of a picture of the same size, if one is given.
-[[nodiscard]] std::string encode_png(const DeepImage& image, const Image* alpha = nullptr);
+[[nodiscard]] std::string encode_deep_png(const DeepImage& image, const Image* alpha = nullptr);
 /// The same as OpenEXR: linear light in half floats.
 [[nodiscard]] std::string encode_exr(const DeepImage& image);
 /// The alpha of a picture as a grey PNG.

@@ -57,7 +57,7 @@ double decode(std::uint16_t code) {  // IEC 61966-2-1
 
 }  // namespace
 
-std::string encode_png(const DeepImage& image, const Image* alpha) {
+std::string encode_deep_png(const DeepImage& image, const Image* alpha) {
   ORBC_CHECK(image.rgb.size(), ==, static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
   ORBC_CHECK(image.rgb.empty(), ==, false);
   std::string bytes;

@@ -379,7 +379,7 @@ std::string make_glb(const Product& product, const Layout& layout, const std::st
 std::string atlas_png(const Product& product) {
   ORBC_CHECK(static_cast<int>(product.depth), !=, static_cast<int>(scene::AtlasDepth::exr));
   if (product.deep_atlas.rgb.empty()) return mesh::encode_png(product.atlas);
-  return mesh::encode_png(product.deep_atlas, product.masked ? &product.atlas : nullptr);
+  return mesh::encode_deep_png(product.deep_atlas, product.masked ? &product.atlas : nullptr);
 }
 
 }  // namespace

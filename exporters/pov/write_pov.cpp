@@ -82,7 +82,7 @@ AtlasFiles atlas_files(const driver::Product& product, const std::string& name) 
     for (std::size_t i = 3; i < opaque.rgba.size(); i += 4) opaque.rgba[i] = 255;
     files.atlas.bytes = mesh::encode_png(opaque);
   } else {
-    files.atlas.bytes = exr ? mesh::encode_exr(product.deep_atlas) : mesh::encode_png(product.deep_atlas);
+    files.atlas.bytes = exr ? mesh::encode_exr(product.deep_atlas) : mesh::encode_deep_png(product.deep_atlas);
   }
   if (product.masked) files.mask = {name + "-mask.png", mesh::encode_mask(product.atlas)};
   return files;

@@ -264,6 +264,37 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   CHECK(far_off <= asked / 50);  // shadow borders
 }
 
+TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the four that POV-Ray, Cycles and WebGL blend", "[light]") {
+  // They blend linear light or codes, wrap or clamp: all the same as long as the four are the block's own.
+  scene::Scene scene = lit_scene("*2222", scene::LampKind::sphere, true);
+  scene.objects.resize(1);
+  scene.objects[0].shape = scene::SphereSpec{0.1};
+  const Lit l = lit(scene, 0);
+  light::BakeOptions options;
+  options.coarse = 6, options.fine = 24;
+  const light::Baked baked = light::bake(l.room, l.field, options, serial_executor()).value();
+  const mesh::Image& image = baked.atlas.image;
+  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
+    std::vector<const light::Box*> box(l.room.parts[p].triangles.size(), nullptr);
+    for (std::size_t i = 0; i < baked.blocks[p].size(); ++i) {
+      box[baked.blocks[p][i].first] = &baked.boxes[p][i];
+      if (baked.blocks[p][i].second >= 0) box[static_cast<std::size_t>(baked.blocks[p][i].second)] = &baked.boxes[p][i];
+    }
+    for (std::size_t t = 0; t < box.size(); ++t)
+      for (const std::array<double, 3>& b : {std::array{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {0.5, 0.5, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}, {0.3, 0.3, 0.4}}) {
+        double at[2] = {0, 0};
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t c = 0; c < 2; ++c) at[c] += b[k] * static_cast<double>(baked.atlas.uv[p][baked.atlas.room.parts[p].triangles[t][k]][c]);
+        const double x = at[0] * image.width - 0.5, y = at[1] * image.height - 0.5;
+        constexpr double kNothing = 2e-3;   // of a texel: what single precision leaves
+        REQUIRE(x > box[t]->x - kNothing);
+        REQUIRE(y > box[t]->y - kNothing);
+        REQUIRE(x < box[t]->x + box[t]->width - 1 + kNothing);
+        REQUIRE(y < box[t]->y + box[t]->height - 1 + kNothing);
+      }
+  }
+}
+
 TEST_CASE("solid patterns are the same stone everywhere and stay between their colours", "[light]") {
   CHECK(light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2) == light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2));
   for (const scene::Pattern pattern : {scene::Pattern::marble, scene::Pattern::wood, scene::Pattern::granite}) {
