@@ -61,6 +61,7 @@ struct CompileArguments {
   int max_atlas = 16384;            ///< pixels a side
   std::string model = "disk";       ///< svg: disk, klein, plane
   std::string colour = "parity";    ///< svg: parity, length
+  bool tell_notes = false;          ///< say what compiling has found, even if quiet
   bool plan = false;                ///< only say what it would take
 };
 struct RenderArguments {

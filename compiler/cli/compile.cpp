@@ -64,6 +64,16 @@ std::vector<driver::File> exported(const driver::Product& product, const std::st
   return gltf::write_gltf(product, options);
 }
 
+void print_notes(const driver::Compiled& compiled, const std::string& format, const CompileArguments& a, const Common& common) {
+  Diagnostics notes = compiled.notes;
+  if (compiled.product.native && format != "pov")
+    notes.push_back(make_warning("gltf.native-lights-shared", "lamps of glTF are points and cones that light every copy, not their own alone; ambient light is left out",
+                                 "draw it with POV-Ray, or bake the light (`lights: baked`)"));
+  Common told = common;
+  told.quiet = common.quiet && !a.tell_notes;
+  print(notes, told);
+}
+
 }  // namespace
 
 driver::CompileOptions compile_options(const CompileArguments& a) {
@@ -103,10 +113,7 @@ int compile(const CompileArguments& a, const Common& common) {
   const auto compiled = driver::compile(*opened, options, executor, bar.progress());
   if (!compiled) return bar.clear(), print(compiled.error(), common), kSceneWrong;
   bar.clear();
-  print(compiled->notes, common);
-  if (compiled->product.native && format != "pov")
-    print({make_warning("gltf.native-lights-shared", "lamps of glTF are points and cones without size that light every copy, not their own alone; ambient light is left out",
-                        "draw it with POV-Ray, or bake the light (`lights: baked`)")}, common);
+  print_notes(*compiled, format, a, common);
   report(bar.progress(), "writing", 0, 0);
   write_files(exported(compiled->product, format, a.output, a.nodes_per_copy), a.output);
   if (!a.report.empty()) write_output(a.report, driver::report_json(*compiled));

@@ -51,6 +51,7 @@ int render_elsewhere(const RenderArguments& a, const Common& common) {
   const TemporaryFolder folder;
   CompileArguments exported = a.compile;
   exported.output = (folder.path() / (a.engine == "povray" ? "scene.pov" : "scene.glb")).string();
+  exported.tell_notes = !common.quiet;
   Common within = common;
   within.quiet = true, within.json = false;
   if (const int code = compile(exported, within); code != kDone) return code;

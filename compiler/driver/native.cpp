@@ -109,7 +109,8 @@ std::string why_approximate(const Opened& opened, bool mirrors_alike) {
   const place::PlacedRoom& room = *opened.room;
   std::vector<std::string> why;
   if (room.room.space != Space::euclidean) why.push_back(fmt::format("light follows curves in {} rooms, but straight lines in renderers", name(room.room.space)));
-  if (!mirrors_alike || cover::needs_beams(room)) why.push_back("mirrors that are not all alike give light their mean weight");
+  if (!mirrors_alike) why.push_back("mirrors that are not all alike give light their mean weight");
+  if (cover::needs_beams(room)) why.push_back("copies are cut to what the eye sees of them, and so are their shadows");
   if (std::any_of(scene.lamps.begin(), scene.lamps.end(), [](const scene::Lamp& l) { return l.kind == LampKind::tube; })) why.push_back("tubes shine alike to all sides");
   if (scene.integrator == scene::Integrator::path) why.push_back("what surfaces pass on to each other is left out");
   const auto shiny = [](const place::Look& look) { return look.material.kind != MaterialKind::matte && look.material.kind != MaterialKind::emissive; };

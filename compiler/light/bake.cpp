@@ -370,7 +370,7 @@ Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vecto
   }
   return make_error("light.atlas-too-large",
                     fmt::format("the baked light of this scene does not fit into a picture of {0}×{0} pixels", max_side),
-                    fmt::format("most of it, {} texels, is on \"{}\": a simpler mesh there, or larger lamps with softer shadows, need less",
+                    fmt::format("most of it, {} texels, is on \"{}\": a simpler mesh there, larger lamps with softer shadows, or --quality draft need less",
                                 most, room.parts[worst].name));
 }
 
