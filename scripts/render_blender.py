@@ -140,6 +140,12 @@ def load(path, name):
     bpy.context.scene.camera = cameras[0]
     for light in bpy.data.lights:
         light.shadow_soft_size = light.get('orbc_radius', 0)  # the importer leaves Blender's quarter of a metre
+    for material in bpy.data.materials:
+        for node in material.node_tree.nodes if material.use_nodes else ():
+            if node.type == 'BSDF_PRINCIPLED':  # matte; the importer makes a texture of KHR_materials_specular's zero, which is none
+                for link in node.inputs['Specular'].links:
+                    material.node_tree.links.remove(link)
+                node.inputs['Specular'].default_value = 0
     return cameras[0].data
 
 

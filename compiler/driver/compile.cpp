@@ -375,7 +375,10 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
     return make_error("driver.native-view", "lamps of the renderer's own hang where one eye sees them: --view disk has none", "bake the light (`lights: baked`), or leave out --view disk",
                       opened.scene.span);
   }
-  auto made = native ? make_within(unlit_twin(opened), &opened, options, executor, progress) : make_within(opened, nullptr, options, executor, progress);
+  std::optional<Opened> twin;
+  if (native) twin.emplace(unlit_twin(opened));
+  const Opened& from = twin ? *twin : opened;
+  auto made = make_within(from, native ? &opened : nullptr, options, executor, progress);
   if (!made) return located(made.error(), opened.scene.span);
   Compiled compiled;
   const double bend_error_px = made->bent.error_bound_px;
@@ -383,7 +386,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   Diagnostics told_of_light;
   if (native) told_of_light = add_native_light(opened, made->ready->copies, compiled.product, executor);
   if (has_error(told_of_light)) return told_of_light;
-  compiled.report = report_of(opened, *made->ready, compiled.product, bend_error_px);
+  compiled.report = report_of(from, *made->ready, compiled.product, bend_error_px);
   compiled.notes = located(notes_of(options, *made->ready), opened.scene.span);
   compiled.notes.insert(compiled.notes.end(), told_of_light.begin(), told_of_light.end());
   return compiled;

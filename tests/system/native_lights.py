@@ -90,5 +90,5 @@ with folder() as where:
             shutil.copy(pathlib.Path(where) / 'traced.png', keep / 'blender-traced.png')
         lit = traced.max(axis=2) > 90
         ratio = drawn[lit].mean() / traced[lit].mean()
-        check(0.97 < ratio < 1.03, f'Blender shows lamps as bright as orbc: {ratio:.3f}')
+        check(0.98 < ratio < 1.02, f'Blender shows lamps as bright as orbc: {ratio:.3f}')
 finish()
