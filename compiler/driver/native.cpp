@@ -123,7 +123,9 @@ std::string why_approximate(const Opened& opened, bool mirrors_alike) {
 bool lit_natively(const scene::Scene& scene) { return scene.bake.lights == scene::LightsBy::native && !scene.lamps.empty(); }
 
 Opened unlit_twin(const Opened& opened) {
-  Opened twin{opened.scene, std::make_unique<place::PlacedRoom>(*opened.room), opened.eye, {}, opened.expected_background};
+  Opened twin;
+  twin.scene = opened.scene, twin.eye = opened.eye, twin.expected_background = opened.expected_background;
+  twin.room = std::make_unique<place::PlacedRoom>(*opened.room);
   twin.scene.lamps.clear();
   twin.scene.integrator = scene::Integrator::direct;
   twin.scene.exposure = 1;
