@@ -19,8 +19,13 @@ struct Cancelled : std::runtime_error {
   Cancelled() : std::runtime_error("cancelled") {}
 };
 
-inline void report(const Progress& progress, std::string_view stage, std::uint64_t done, std::uint64_t total, std::string_view unit = "") {
+/// For loops that have nothing to report.
+inline void stop_if_cancelled(const Progress& progress) {
   if (progress.cancelled && progress.cancelled->load(std::memory_order_relaxed)) throw Cancelled();
+}
+
+inline void report(const Progress& progress, std::string_view stage, std::uint64_t done, std::uint64_t total, std::string_view unit = "") {
+  stop_if_cancelled(progress);
   if (progress.report) progress.report(stage, done, total, unit);
 }
 

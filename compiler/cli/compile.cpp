@@ -103,7 +103,7 @@ int compile(const CompileArguments& a, const Common& common) {
   if (format == "svg") return write_tiling(*opened, a, common);
 
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const Executor executor = driver::parallel_executor(common.threads);
+  const Executor executor = driver::parallel_executor(common.threads, &interrupted());
   if (a.plan) {
     const auto plan = driver::plan(*opened, options, executor);
     if (!plan) return print(plan.error(), common), kSceneWrong;

@@ -93,7 +93,7 @@ int render_here(const RenderArguments& a, const Common& common) {
   if (!opened) return print(opened.error(), common), kSceneWrong;
   print(opened->notes, common);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads), bar.progress());
+  const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   const bool exr = ends_with(a.compile.output, ".exr");
   write_output(a.compile.output, exr ? render::to_exr(film) : mesh::encode_png(render::to_image(film, pass_of(a.pass), opened->scene.exposure)));
   bar.clear();

@@ -64,7 +64,7 @@ int verify(const VerifyArguments& a, const Common& common) {
   Common within = common;
   within.json = false;
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads), bar.progress());
+  const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   bar.clear();
   const mesh::Image reference = render::to_image(film, opened->scene.exposure);
   const TemporaryFolder folder;

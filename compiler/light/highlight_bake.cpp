@@ -58,6 +58,23 @@ double pixels_per_unit(const EyeImage& eye, const Way& sight, double per_radian)
   return per_radian * std::max(1 / std::max(sight.length, 1e-3), sight.arc / std::max(sight.length, 1e-3) / std::max(across, 1e-2));
 }
 
+/// What one unit of length along `side` (any length) takes in the picture where it starts. In the map of the eye (the log map) lengths across
+/// the geodesic grow by arc/sinκ(arc), those along it and upright stay. Something of what the sight foreshortens is kept: the surface bends.
+double pixels_along(const EyeImage& eye, const Way& sight, const Position& at, const Direction& side, double per_radian) {
+  const double k = geometry::curvature(eye.space);
+  const Direction foot{at.floor, 0};
+  const Direction tangent = side + -k * trace::inner(eye.space, side, foot) * foot;
+  const double size = std::sqrt(trace::inner(eye.space, tangent, tangent));
+  if (size < 1e-12) return 0;
+  const Direction along = (1 / size) * tangent, level{sight.start.floor, 0}, flat{along.floor, 0};
+  const double c = std::sqrt(std::max(0.0, trace::inner(eye.space, level, level)));
+  const double ahead = c < 1e-9 ? 0 : trace::inner(eye.space, flat, level) / c;
+  const double across = std::sqrt(std::max(0.0, trace::inner(eye.space, flat, flat) - ahead * ahead));
+  const double stretch = sight.arc < 0.01 ? 1 : sight.arc / std::max(std::fabs(geometry::sin_k(eye.space, sight.arc)), 0.01);
+  const double upright = std::max(std::fabs(ahead * sight.start.z - along.z * c), 0.3 * std::hypot(ahead, along.z));
+  return per_radian * std::hypot(across * stretch, upright) / std::max(sight.length, 1e-3);
+}
+
 struct Finished {
   std::size_t block = 0;
   Box box;
@@ -76,6 +93,7 @@ struct Job {
   EyeImage eye;
   Color weight;  ///< of the copy: what is faint needs no detail
   double per_radian, beside;
+  const Progress& progress;
 };
 
 /// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure; none of what is all mirror or glass.
@@ -120,6 +138,7 @@ class PartShine {
     known_.assign(normals_.vertices.size(), -1);
     at_vertex_.resize(normals_.vertices.size());
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      stop_if_cancelled(job_.progress);
       const place::Look& look = job_.room.looks[mesh_.look[blocks_[i].first]];
       whole_ = job_.options.seen_in && mirrors_or_refracts(look.material);
       if (!whole_ && !shines(look.material)) continue;
@@ -189,33 +208,43 @@ class PartShine {
                                     static_cast<std::int64_t>(grid.w - 1) * (grid.h - 1);
   }
 
-  /// Pixels per unit at the block's nearest corner; 0 when all of it turns away from the eye.
-  double nearness(const Block& block) const {
-    double most = 0;
-    bool towards = false;
-    for (int c = 0; c < (block.second >= 0 ? 4 : 3); ++c) {
+  /// Pixels that the block's two sides take in the picture, at the corner where it is most; nothing when all of it turns away from the eye.
+  /// Side by side, not by the larger one: near the antipode the picture is drawn out around the eye, but not in height.
+  [[nodiscard]] std::optional<std::array<double, 2>> pixels_of(const Block& block) const {
+    const auto corner_of = [&](int c) -> const ShadingVertex& {
       const std::size_t t = c == 3 ? static_cast<std::size_t>(block.second) : block.first;
       const int k = c == 3 ? block.second_turn[0] : block.turn[static_cast<std::size_t>(c)];
-      const ShadingVertex& v = normals_.vertices[normals_.corners[t][static_cast<std::size_t>(k)]];
-      const Way sight = way_to(job_.eye, {mesh_.floor[v.vertex], mesh_.z[v.vertex]});
+      return normals_.vertices[normals_.corners[t][static_cast<std::size_t>(k)]];
+    };
+    const auto side = [&](int to) {
+      const std::uint32_t a = corner_of(0).vertex, b = corner_of(to).vertex;
+      return Direction{geometry::Ambient(mesh_.floor[b]) + -1.0 * geometry::Ambient(mesh_.floor[a]), mesh_.z[b] - mesh_.z[a]};
+    };
+    const Direction u = side(1), v = side(2);
+    std::array<double, 2> most{};
+    bool towards = false;
+    for (int c = 0; c < (block.second >= 0 ? 4 : 3); ++c) {
+      const ShadingVertex& corner = corner_of(c);
+      const Position at{mesh_.floor[corner.vertex], mesh_.z[corner.vertex]};
+      const Way sight = way_to(job_.eye, at);
       if (!sight.exists) continue;
-      towards = towards || trace::inner(job_.eye.space, sight.start, v.normal) > 0;
-      most = std::max(most, pixels_per_unit(job_.eye, sight, job_.per_radian));
+      towards = towards || trace::inner(job_.eye.space, sight.start, corner.normal) > 0;
+      most[0] = std::max(most[0], block.length_u * pixels_along(job_.eye, sight, at, u, job_.per_radian));
+      most[1] = std::max(most[1], block.length_v * pixels_along(job_.eye, sight, at, v, job_.per_radian));
     }
-    return towards ? most : 0;
+    return towards ? std::optional(most) : std::nullopt;
   }
 
   std::optional<Finished> bake_block(std::size_t number, const place::Look& look) {
     const Block& block = blocks_[number];
-    const double per_unit = nearness(block);
-    if (per_unit <= 0) return std::nullopt;
+    const auto pixels = pixels_of(block);
+    if (!pixels) return std::nullopt;
     const Base base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number], whole_);
     const auto level = [](double cells) {
       return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel);
     };
-    const int a = level(block.length_u * per_unit / job_.options.fine_px), b = level(block.length_v * per_unit / job_.options.fine_px);
-    const int a0 = std::min(a, level(block.length_u * per_unit / job_.options.probe_px)),
-              b0 = std::min(b, level(block.length_v * per_unit / job_.options.probe_px));
+    const int a = level((*pixels)[0] / job_.options.fine_px), b = level((*pixels)[1] / job_.options.fine_px);
+    const int a0 = std::min(a, level((*pixels)[0] / job_.options.probe_px)), b0 = std::min(b, level((*pixels)[1] / job_.options.probe_px));
     Grid grid;
     grid.w = (1 << a) + 1, grid.h = (1 << b) + 1;
     int su = 1 << (a - a0), sv = 1 << (b - b0);
@@ -446,7 +475,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
       const cover::Copy& copy = copies[shining.copy];
       const PartNormals& normals = part.part < field.normals.size() ? field.normals[part.part] : part.own;
       const Job job{room, field, options, baked, normals, shining.part, copy, image_of(copy, eye), copy.weight, per_radian,
-                    shining.part < drawn.beside.size() ? drawn.beside[shining.part] : 0};
+                    shining.part < drawn.beside.size() ? drawn.beside[shining.part] : 0, progress};
       const Ball& ball = part.ball;
       const Way sight = way_to(job.eye, ball.centre);
       const bool near = sight.length < 2 * ball.radius;
