@@ -10,6 +10,7 @@
 #include <optional>
 #include <tuple>
 
+#include "compiler/light/eye_image.h"
 #include "compiler/light/highlight_pack.h"
 #include "compiler/light/way.h"
 #include "compiler/place/texel.h"
@@ -36,45 +37,6 @@ bool mirrors_or_refracts(const scene::Material& material) {
   return material.kind == scene::MaterialKind::mirror || material.kind == scene::MaterialKind::glass;
 }
 
-/// The eye as a copy sees it.
-struct EyeImage {
-  Space space = Space::euclidean;
-  Position at;
-  int sheet = 0;
-};
-
-EyeImage image_of(const cover::Copy& copy, const place::Eye& eye) {
-  const geometry::Point foot = eye.room_from_eye * geometry::Point();
-  return {eye.room_from_eye.space,
-          {geometry::inverse(copy.cover_from_room) * foot, copy.storey.sign * (eye.z - copy.storey.offset)},
-          copy.sheet};
-}
-
-Way way_to(const EyeImage& eye, const Position& from) { return light::way_to(eye.space, from, eye.at, eye.sheet); }
-
-/// What one unit of length takes in the picture, at most: things stand across the sight, on the floor or upright.
-double pixels_per_unit(const EyeImage& eye, const Way& sight, double per_radian) {
-  const double across = std::fabs(geometry::sin_k(eye.space, sight.arc));
-  return per_radian * std::max(1 / std::max(sight.length, 1e-3), sight.arc / std::max(sight.length, 1e-3) / std::max(across, 1e-2));
-}
-
-/// What one unit of length along `side` (any length) takes in the picture where it starts. In the map of the eye (the log map) lengths across
-/// the geodesic grow by arc/sinκ(arc), those along it and upright stay. Something of what the sight foreshortens is kept: the surface bends.
-double pixels_along(const EyeImage& eye, const Way& sight, const Position& at, const Direction& side, double per_radian) {
-  const double k = geometry::curvature(eye.space);
-  const Direction foot{at.floor, 0};
-  const Direction tangent = side + -k * trace::inner(eye.space, side, foot) * foot;
-  const double size = std::sqrt(trace::inner(eye.space, tangent, tangent));
-  if (size < 1e-12) return 0;
-  const Direction along = (1 / size) * tangent, level{sight.start.floor, 0}, flat{along.floor, 0};
-  const double c = std::sqrt(std::max(0.0, trace::inner(eye.space, level, level)));
-  const double ahead = c < 1e-9 ? 0 : trace::inner(eye.space, flat, level) / c;
-  const double across = std::sqrt(std::max(0.0, trace::inner(eye.space, flat, flat) - ahead * ahead));
-  const double stretch = sight.arc < 0.01 ? 1 : sight.arc / std::max(std::fabs(geometry::sin_k(eye.space, sight.arc)), 0.01);
-  const double upright = std::max(std::fabs(ahead * sight.start.z - along.z * c), 0.3 * std::hypot(ahead, along.z));
-  return per_radian * std::hypot(across * stretch, upright) / std::max(sight.length, 1e-3);
-}
-
 struct Finished {
   std::size_t block = 0;
   Box box;
@@ -90,6 +52,7 @@ struct Job {
   const PartNormals& normals;
   std::size_t part;
   const cover::Copy& copy;
+  const place::Eye& camera;
   EyeImage eye;
   Color weight;  ///< of the copy: what is faint needs no detail
   double per_radian, beside;
@@ -223,16 +186,22 @@ class PartShine {
     const Direction u = side(1), v = side(2);
     std::array<double, 2> most{};
     bool towards = false;
+    std::vector<geometry::Vector3> directions;
     for (int c = 0; c < (block.second >= 0 ? 4 : 3); ++c) {
       const ShadingVertex& corner = corner_of(c);
       const Position at{mesh_.floor[corner.vertex], mesh_.z[corner.vertex]};
       const Way sight = way_to(job_.eye, at);
-      if (!sight.exists) continue;
+      const auto seen = direction_from_eye(job_.copy, job_.camera, at);
+      if (!sight.exists || !seen) continue;
+      directions.push_back(*seen);
       towards = towards || trace::inner(job_.eye.space, sight.start, corner.normal) > 0;
       most[0] = std::max(most[0], block.length_u * pixels_along(job_.eye, sight, at, u, job_.per_radian));
       most[1] = std::max(most[1], block.length_v * pixels_along(job_.eye, sight, at, v, job_.per_radian));
     }
-    return towards ? std::optional(most) : std::nullopt;
+    if (!towards) return std::nullopt;
+    if (beside_picture(job_.camera, directions))
+      for (double& pixels : most) pixels /= job_.options.coarser_beside;
+    return most;
   }
 
   std::optional<Finished> bake_block(std::size_t number, const place::Look& look) {
@@ -450,10 +419,6 @@ bool needs_highlights(const place::PlacedRoom& room, const LightField& field) {
   return std::any_of(room.looks.begin(), room.looks.end(), [](const place::Look& look) { return shines(look.material); });
 }
 
-trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const Position& at) {
-  return way_to(image_of(copy, eye), at).start;
-}
-
 Highlights bake_highlights(const place::PlacedRoom& room, const LightField& field, const std::vector<cover::Copy>& copies,
                            const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked,
                            const Executor& executor, const Progress& progress) {
@@ -474,7 +439,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
       if (!part.in_model.empty() && !part.in_model[drawn.model_of_copy[shining.copy]]) return;
       const cover::Copy& copy = copies[shining.copy];
       const PartNormals& normals = part.part < field.normals.size() ? field.normals[part.part] : part.own;
-      const Job job{room, field, options, baked, normals, shining.part, copy, image_of(copy, eye), copy.weight, per_radian,
+      const Job job{room, field, options, baked, normals, shining.part, copy, eye, image_of(copy, eye), copy.weight, per_radian,
                     shining.part < drawn.beside.size() ? drawn.beside[shining.part] : 0, progress};
       const Ball& ball = part.ball;
       const Way sight = way_to(job.eye, ball.centre);

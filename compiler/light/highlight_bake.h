@@ -19,6 +19,7 @@ struct HighlightOptions {
   double tolerance = 1;                   ///< in steps of 1/255 of the picture: smaller highlights are left out
   double probe_px = 4;                    ///< pixels between points that are always asked
   double fine_px = 0.8;                   ///< and where highlights change
+  double coarser_beside = 4;              ///< times that, for what lies beside the picture: seen only when the camera is turned
   int max_side = 16384;                   ///< pixels of the atlas
   std::uint64_t max_texels = 40'000'000;  ///< for highlights; the nearest copies come first
 };
@@ -60,9 +61,5 @@ struct Highlights {
 [[nodiscard]] Highlights bake_highlights(const place::PlacedRoom& room, const LightField& field, const std::vector<cover::Copy>& copies,
                                          const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked,
                                          const Executor& executor, const Progress& progress = {});
-
-/// The unit direction at a point of the room in which the eye sees that point of a copy: that of the geodesic to the eye's image, on S²
-/// over as many half turns as the copy's sheet has. Nothing exists where the point is the focus of all directions: the zero vector.
-[[nodiscard]] trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const geometry::Position& at);
 
 }  // namespace orbc::light

@@ -10,6 +10,7 @@
 
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/trace.h"
+#include "compiler/light/eye_image.h"
 #include "compiler/render/draw.h"
 #include "compiler/render/shade.h"
 

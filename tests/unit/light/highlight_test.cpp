@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "compiler/cover/unfold.h"
+#include "compiler/light/eye_image.h"
 #include "compiler/light/highlight_bake.h"
 #include "compiler/light/way.h"
 #include "compiler/notation/parse.h"
@@ -137,4 +138,67 @@ TEST_CASE("highlights are the same bytes for any executor, and none are baked fo
   for (std::size_t i = 0; i < a.own.size(); ++i) CHECK((a.own[i].copy == b.own[i].copy && a.own[i].uv == b.own[i].uv));
   const Stage matte = stage("*22222", 1, scene::MaterialKind::matte);
   CHECK_FALSE(light::needs_highlights(matte.room, light::prepare_light(matte.scene, matte.room).value()));
+}
+
+TEST_CASE("the eye sees a point of a copy where its log map takes it", "[light]") {
+  // Against the map by which copies are bent: two roads to the same picture.
+  for (const char* orbifold : {"*333", "*22222", "*222"}) {
+    const Stage s = stage(orbifold, 2, scene::MaterialKind::glossy);
+    const place::PlacedMesh& ball = s.room.parts[s.room.parts.size() - 1];
+    for (const cover::Copy& copy : s.copies) {
+      if (copy.sheet != 0) continue;
+      const geometry::Position at{ball.floor[7], ball.z[7]};
+      const auto seen = light::direction_from_eye(copy, s.eye, at);
+      REQUIRE(seen);
+      const geometry::Point there = geometry::inverse(s.eye.room_from_eye) * (copy.cover_from_room * at.floor);
+      const double arc = geometry::arc_k(s.eye.room_from_eye.space, there.w, std::hypot(there.x, there.y));
+      const double flat = arc / std::hypot(there.x, there.y);
+      const geometry::Vector3 bent = geometry::normalised({flat * there.x, flat * there.y, copy.storey.sign * at.z + copy.storey.offset - s.eye.z});
+      CHECK(geometry::length(*seen - bent) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a side takes as many pixels in the picture as its ends lie apart there", "[light]") {
+  for (const char* orbifold : {"*333", "*22222", "*222"}) {
+    const Stage s = stage(orbifold, 2, scene::MaterialKind::glossy);
+    const auto space = s.eye.room_from_eye.space;
+    for (const cover::Copy& copy : s.copies) {
+      const light::EyeImage eye = light::image_of(copy, s.eye);
+      const geometry::Position at{geometry::Point(), 0.3};
+      const light::Way sight = light::way_to(eye, at);
+      REQUIRE(sight.exists);
+      const double step = 1e-5;
+      for (const double turn : {0.2, 1.3, 2.9}) {
+        for (const double rise : {0.0, 0.7}) {
+          // Straight from the centre of the room, where ambient x and y are lengths.
+          const geometry::Position next{geometry::normalised_point(space, {1, step * std::cos(turn), step * std::sin(turn)}), at.z + rise * step};
+          const trace::Direction side{{0, std::cos(turn), std::sin(turn)}, rise};
+          const auto a = light::direction_from_eye(copy, s.eye, at), b = light::direction_from_eye(copy, s.eye, next);
+          REQUIRE((a && b));
+          const double apart = 100 * geometry::length(*b - *a) / (step * std::hypot(1.0, rise));
+          const double said = light::pixels_along(eye, sight, at, side, 100);
+          CHECK(said > 0.999 * apart);
+          CHECK(said < 1.001 * std::max(apart, std::hypot(apart, 0.3 * 100 / sight.length)));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("what lies beside the picture has coarser highlights, what lies in it keeps them", "[light]") {
+  Stage s = stage("*333", 0, scene::MaterialKind::glossy);
+  const auto field = light::prepare_light(s.scene, s.room).value();
+  const light::Baked shared = baked_of(s, field);
+  const auto texels = [&](double coarser) {
+    light::Baked baked = shared;
+    light::HighlightOptions options;
+    options.coarser_beside = coarser;
+    return light::bake_highlights(s.room, field, s.copies, {}, s.eye, options, baked, serial_executor()).counts.texels;
+  };
+  const place::PlacedMesh& ball = s.room.parts[s.room.parts.size() - 1];
+  s.eye.forward = *light::direction_from_eye(s.copies[0], s.eye, {ball.floor[7], ball.z[7]});
+  CHECK(texels(4) == texels(1));
+  s.eye.forward = -1.0 * s.eye.forward;
+  CHECK(texels(4) < texels(1) / 2);
 }
