@@ -134,10 +134,7 @@ class BlockBaker {
           done.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)][3] = 0;
   }
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * grid_.w + i; }
-  bool valid(int i, int j) const {
-    return block_.second >= 0 || static_cast<std::int64_t>(i) * (grid_.h - 1) + static_cast<std::int64_t>(j) * (grid_.w - 1) <=
-                                     static_cast<std::int64_t>(grid_.w - 1) * (grid_.h - 1);
-  }
+  bool valid(int i, int j) const { return on_block(block_, i, j, grid_.w, grid_.h); }
   InTriangle place(int i, int j) const {
     return in_triangle(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1));
   }

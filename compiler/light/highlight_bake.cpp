@@ -10,6 +10,7 @@
 #include <optional>
 #include <tuple>
 
+#include "compiler/light/block_texels.h"
 #include "compiler/light/eye_image.h"
 #include "compiler/light/highlight_pack.h"
 #include "compiler/light/way.h"
@@ -27,6 +28,7 @@ using trace::Direction;
 constexpr int kMaxLevel = 10;        // of a block: 1025 texels a side
 constexpr double kContrast = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
 constexpr double kSmallestPart = 3;  // pixels: highlights of smaller things are left out
+constexpr int kRaysPerTexel = 2;     // a side, where glass or a mirror shows what is finer than a texel
 constexpr std::size_t kBatch = 16;   // copies between two looks at the bound
 
 bool shines(const scene::Material& material) {
@@ -57,37 +59,6 @@ struct Job {
   Color weight;  ///< of the copy: what is faint needs no detail
   double per_radian, beside;
   const Progress& progress;
-};
-
-/// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure; none of what is all mirror or glass.
-class Base {
- public:
-  Base(const mesh::Image& image, const Box& box, bool none) : image_(image), box_(box), none_(none) {}
-  [[nodiscard]] Color at(double u, double v) const {
-    if (none_) return {};
-    const double x = u * (box_.width - 1), y = v * (box_.height - 1);
-    const int i = std::min(static_cast<int>(x), box_.width - 2), j = std::min(static_cast<int>(y), box_.height - 2);
-    const double s = x - i, t = y - j;
-    return (1 - t) * ((1 - s) * texel(i, j) + s * texel(i + 1, j)) + t * ((1 - s) * texel(i, j + 1) + s * texel(i + 1, j + 1));
-  }
-
- private:
-  [[nodiscard]] Color texel(int i, int j) const {
-    const std::uint8_t* p = image_.rgba.data() + 4 * (static_cast<std::size_t>(box_.y + j) * static_cast<std::size_t>(image_.width) +
-                                                      static_cast<std::size_t>(box_.x + i));
-    return {decoded(p[0]), decoded(p[1]), decoded(p[2])};
-  }
-  static double decoded(std::uint8_t code) {
-    static const std::array<double, 256> table = [] {
-      std::array<double, 256> all{};
-      for (std::size_t i = 0; i < all.size(); ++i) all[i] = scene::decode_srgb(static_cast<double>(i) / 255);
-      return all;
-    }();
-    return table[code];
-  }
-  const mesh::Image& image_;
-  const Box& box_;
-  bool none_;
 };
 
 /// The highlights of a part in one copy.
@@ -166,10 +137,7 @@ class PartShine {
     return shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), albedo, look.material);
   }
 
-  static bool valid(const Block& block, const Grid& grid, int i, int j) {
-    return block.second >= 0 || static_cast<std::int64_t>(i) * (grid.h - 1) + static_cast<std::int64_t>(j) * (grid.w - 1) <=
-                                    static_cast<std::int64_t>(grid.w - 1) * (grid.h - 1);
-  }
+  static bool valid(const Block& block, const Grid& grid, int i, int j) { return on_block(block, i, j, grid.w, grid.h); }
 
   /// Pixels that the block's two sides take in the picture, at the corner where it is most; nothing when all of it turns away from the eye.
   /// Side by side, not by the larger one: near the antipode the picture is drawn out around the eye, but not in height.
@@ -208,7 +176,7 @@ class PartShine {
     const Block& block = blocks_[number];
     const auto pixels = pixels_of(block);
     if (!pixels) return std::nullopt;
-    const Base base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number], whole_);
+    const BlockTexels base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number], whole_);
     const auto level = [](double cells) {
       return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel);
     };
@@ -238,7 +206,35 @@ class PartShine {
       refine(block, look, grid, su, sv, nu, nv);
       su = nu, sv = nv;
     }
+    if (whole_) soften(block, look, grid);
     return finish(number, block, grid, base);
+  }
+
+  // What is refracted or mirrored is often finer than texels. Where neighbours differ a texel shows the mean over its own size, as a pixel does.
+  void soften(const Block& block, const place::Look& look, Grid& grid) {
+    const auto beside = [&](int i, int j, const Color& here) {
+      return i >= 0 && j >= 0 && i < grid.w && j < grid.h && valid(block, grid, i, j) && difference(grid.light[grid.index(i, j)], here) > kContrast;
+    };
+    std::vector<Color> soft = grid.light;
+    for (int j = 0; j < grid.h; ++j)
+      for (int i = 0; i < grid.w; ++i) {
+        const Color& here = grid.light[grid.index(i, j)];
+        if (!valid(block, grid, i, j)) continue;
+        if (!beside(i - 1, j, here) && !beside(i + 1, j, here) && !beside(i, j - 1, here) && !beside(i, j + 1, here)) continue;
+        Color sum;
+        for (int k = 0; k < kRaysPerTexel * kRaysPerTexel; ++k) {
+          double u = std::clamp((i - 0.5 + (k % kRaysPerTexel + 0.5) / kRaysPerTexel) / (grid.w - 1), 0.0, 1.0);
+          double v = std::clamp((j - 0.5 + (k / kRaysPerTexel + 0.5) / kRaysPerTexel) / (grid.h - 1), 0.0, 1.0);
+          if (block.second < 0 && u + v > 1) {  // a single triangle: back over its long side
+            const double out = (u + v - 1) / 2;
+            u = std::max(0.0, u - out), v = std::max(0.0, v - out);
+          }
+          const InTriangle at = in_triangle(block, u, v);
+          sum = sum + shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), {1, 1, 1}, look.material);
+        }
+        soft[grid.index(i, j)] = (1.0 / (kRaysPerTexel * kRaysPerTexel)) * sum;
+      }
+    grid.light = std::move(soft);
   }
 
   void refine(const Block& block, const place::Look& look, Grid& grid, int su, int sv, int nu, int nv) {
@@ -271,7 +267,7 @@ class PartShine {
   }
 
   // Diffuse light and highlight together, on as few texels as show them.
-  std::optional<Finished> finish(std::size_t number, const Block& block, const Grid& grid, const Base& base) const {
+  std::optional<Finished> finish(std::size_t number, const Block& block, const Grid& grid, const BlockTexels& base) const {
     int w = grid.w, h = grid.h;
     std::vector<Color> sum(grid.light.size());
     bool any = whole_;
