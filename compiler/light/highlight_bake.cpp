@@ -27,7 +27,8 @@ using trace::Direction;
 
 constexpr int kMaxLevel = 10;        // of a block: 1025 texels a side
 constexpr double kContrast = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
-constexpr double kSmallestPart = 3;  // pixels: highlights of smaller things are left out
+constexpr double kSmallestShiny = 3;    // pixels: highlights of smaller things are left out
+constexpr double kSmallestGlass = 0.5;  // but glass and mirrors are nothing without what is seen in them
 constexpr int kRaysPerTexel = 2;     // a side, where glass or a mirror shows what is finer than a texel
 constexpr std::size_t kBatch = 16;   // copies between two looks at the bound
 
@@ -355,6 +356,7 @@ Ball ball_of(Space space, const PlacedMesh& part) {
 struct ShinyPart {
   std::size_t part = 0;
   Ball ball;
+  double smallest_px = kSmallestShiny;
   PartNormals own;  ///< of parts that the field does not know
   std::vector<bool> in_model;
 };
@@ -366,7 +368,9 @@ std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightFie
   for (std::size_t p = 0; p < count; ++p) {
     const PlacedMesh& mesh = room.parts[p];
     if (std::none_of(mesh.look.begin(), mesh.look.end(), [&](std::uint16_t look) { return own_light(room.looks[look].material); })) continue;
-    ShinyPart part{p, ball_of(room.room.space, mesh), {}, {}};
+    ShinyPart part{p, ball_of(room.room.space, mesh), kSmallestShiny, {}, {}};
+    const auto glassy = [&](std::uint16_t look) { return seen_in && mirrors_or_refracts(room.looks[look].material); };
+    if (std::any_of(mesh.look.begin(), mesh.look.end(), glassy)) part.smallest_px = kSmallestGlass;
     for (const auto& model : drawn.models) part.in_model.push_back(std::find(model.begin(), model.end(), p) != model.end());
     if (p >= field.normals.size()) part.own = part_normals(room, mesh);
     parts.push_back(std::move(part));
@@ -440,7 +444,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
       const Ball& ball = part.ball;
       const Way sight = way_to(job.eye, ball.centre);
       const bool near = sight.length < 2 * ball.radius;
-      if (!near && sight.exists && 2 * ball.radius * pixels_per_unit(job.eye, sight, per_radian) < kSmallestPart) return;
+      if (!near && sight.exists && 2 * ball.radius * pixels_per_unit(job.eye, sight, per_radian) < part.smallest_px) return;
       PartShine shine(job);
       shining.blocks = shine.run();
     });
