@@ -19,13 +19,22 @@ Diagnostic make(Severity severity, std::string code, std::string message, std::s
 std::size_t sequence_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(at);
-  const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+  const std::size_t length = lead < 0x80                   ? 1
+                             : lead >= 0xC2 && lead < 0xE0 ? 2
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                           : 0;
   if (length == 0 || at + length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(at + i) & 0xC0) != 0x80) return 0;
   if (length == 1) return 1;
   const unsigned char second = byte(at + 1);
-  const unsigned char low = lead == 0xC2 || lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80, high = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+  const unsigned char low = lead == 0xC2 || lead == 0xE0 ? 0xA0
+                            : lead == 0xF0               ? 0x90
+                                                         : 0x80,
+                      high = lead == 0xED   ? 0x9F
+                             : lead == 0xF4 ? 0x8F
+                                            : 0xBF;
   return second < low || second > high ? 0 : length;
 }
 
@@ -124,7 +133,8 @@ std::string to_text(const Diagnostic& diagnostic) {
 }
 
 std::string to_text(const Diagnostics& diagnostics) {
-  return std::accumulate(diagnostics.begin(), diagnostics.end(), std::string(), [](std::string all, const Diagnostic& d) { return std::move(all) + to_text(d); });
+  return std::accumulate(diagnostics.begin(), diagnostics.end(), std::string(),
+                         [](std::string all, const Diagnostic& d) { return std::move(all) + to_text(d); });
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {

@@ -34,7 +34,8 @@ struct Work {
   const std::vector<std::uint32_t>& model_of_copy;
   std::vector<PartNet> nets;                                      // of each mesh once
   std::vector<std::vector<ModelPart>> models;
-  std::map<int, std::vector<std::unique_ptr<OwnPart>>> storeys;   // by number; those above and below the room's own; nets that are used there
+  // By number; those above and below the room's own; nets that are used there
+  std::map<int, std::vector<std::unique_ptr<OwnPart>>> storeys;
   Isometry eye_from_cover, eye_from_room;
   Sight sight;
   BendOptions options;
@@ -58,7 +59,8 @@ bool colours_vary(const place::PlacedRoom& room, const place::PlacedMesh& mesh) 
     last = i;
     const auto pattern = room.looks[i].material.pattern;
     // Chequered panels are cut along their cells (flat colours); a chequered object is a solid pattern.
-    if (room.looks[i].texture >= 0 || (pattern != scene::Pattern::plain && (pattern != scene::Pattern::checker || mesh.kind == place::PartKind::object))) {
+    if (room.looks[i].texture >= 0 ||
+        (pattern != scene::Pattern::plain && (pattern != scene::Pattern::checker || mesh.kind == place::PartKind::object))) {
       return true;
     }
   }
@@ -101,7 +103,8 @@ class CopyParts {
       if (place == InWedge::all) parts_.push_back({&net, part.uv, part.flat});
       if (place != InWedge::some) continue;
       // For the eye what is split alike on both sides of a wall is cut at last (cut_as_seen.h).
-      own_.push_back(work.options.view == View::eye ? reaching(*copy.wedge, seen, net, *part.uv, work.margin) : clipped(*copy.wedge, seen, net, *part.uv));
+      own_.push_back(work.options.view == View::eye ? reaching(*copy.wedge, seen, net, *part.uv, work.margin)
+                                                    : clipped(*copy.wedge, seen, net, *part.uv));
       if (!own_.back()->mesh.triangles.empty()) parts_.push_back({&own_.back()->net, &own_.back()->uv, part.flat});
     }
   }
@@ -227,7 +230,8 @@ class Writer {
 };
 
 /// Runs `task` for all copies in pieces, so that progress is told by the calling thread.
-void for_copies(const Work& work, const Executor& executor, const Progress& progress, const char* stage, const std::function<void(std::size_t)>& task) {
+void for_copies(const Work& work, const Executor& executor, const Progress& progress, const char* stage,
+                const std::function<void(std::size_t)>& task) {
   const std::size_t count = work.copies.size(), piece = std::max<std::size_t>(64, count / 50);
   for (std::size_t from = 0; from < count; from += piece) {
     report(progress, stage, from, count, "copies");
@@ -321,8 +325,8 @@ Model whole_model(const place::PlacedRoom& room, const std::vector<Uv>& uv) {
   return model;
 }
 
-Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Uv>& atlas_uv, const std::vector<cover::Copy>& copies, const place::Eye& eye,
-                       const BendOptions& options, const Executor& executor, const Progress& progress) {
+Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Uv>& atlas_uv, const std::vector<cover::Copy>& copies,
+                       const place::Eye& eye, const BendOptions& options, const Executor& executor, const Progress& progress) {
   return bend(room, {whole_model(room, atlas_uv)}, {}, copies, eye, options, executor, progress);
 }
 

@@ -302,7 +302,8 @@ void append(const BentCover& from, const BentRange& range, BentCover& to) {
 
 }  // namespace
 
-BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px, const Executor& executor) {
+BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px,
+                      const Executor& executor) {
   if (std::none_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.wedge.has_value(); })) return cover;
   constexpr std::size_t kTogether = 512;   // copies that are held twice
   BentCover cut;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kCannotTell = std::numeric_limits<double>::infinity();
 
-/// Path lengths on the floor to a circle whose points are at distances near … far from the eye's foot, and by how much lengths across the way are stretched
-/// there at most: r / |sin r| grows towards the ends of a half turn (and is 1 at the eye's own foot).
+/// Path lengths on the floor to a circle whose points are at distances near … far from the eye's foot, and by how much lengths across the
+/// way are stretched there at most: r / |sin r| grows towards the ends of a half turn (and is 1 at the eye's own foot).
 struct Way {
   double from = 0, to = 0, stretch = 1;
 };
@@ -48,7 +48,8 @@ Extent extent_of(Space space, const place::PlacedMesh& mesh) {
     extent.low = std::min(extent.low, mesh.z[i]);
     extent.high = std::max(extent.high, mesh.z[i]);
   }
-  if (space != Space::spherical || sum.w * sum.w + sum.x * sum.x + sum.y * sum.y > 1e-6) extent.centre = geometry::normalised_point(space, sum);
+  if (space != Space::spherical || sum.w * sum.w + sum.x * sum.x + sum.y * sum.y > 1e-6)
+    extent.centre = geometry::normalised_point(space, sum);
   for (const auto& p : mesh.floor) extent.radius = std::max(extent.radius, geometry::distance(space, extent.centre, p));
   extent.mesh = &mesh;
   for (const auto& t : mesh.triangles)
@@ -59,7 +60,8 @@ Extent extent_of(Space space, const place::PlacedMesh& mesh) {
   return extent;
 }
 
-Detail::Detail(const place::Eye& eye, const BendOptions& options) : eye_from_room_(inverse(eye.room_from_eye)), sight_(sight_of(eye, options)) {}
+Detail::Detail(const place::Eye& eye, const BendOptions& options)
+    : eye_from_room_(inverse(eye.room_from_eye)), sight_(sight_of(eye, options)) {}
 
 double Detail::nearest_vertex(const LogMap& map, const cover::Copy& copy, const Extent& extent) const {
   double near = kCannotTell;
@@ -88,7 +90,8 @@ double Detail::pixels_per_length(const cover::Copy& copy, const Extent& extent, 
   const double ball = std::hypot(radius * way.stretch, (high - low) / 2), far = length(middle);
   double pixels = densest(sight_), coarser = 1;
   if (sight_.framed) {
-    const double angle = std::acos(std::clamp(dot(middle, sight_.forward) / far, -1.0, 1.0)), wide = ball < far ? std::asin(ball / far) : std::numbers::pi;
+    const double angle = std::acos(std::clamp(dot(middle, sight_.forward) / far, -1.0, 1.0)),
+                 wide = ball < far ? std::asin(ball / far) : std::numbers::pi;
     const double c_border = std::max(std::cos(std::min(angle + wide, std::numbers::pi / 2)), sight_.cos_border);
     pixels = std::min(pixels, sight_.pixels / (c_border * c_border));
     for (const Vector3& n : sight_.outward)
@@ -100,10 +103,12 @@ double Detail::pixels_per_length(const cover::Copy& copy, const Extent& extent, 
 double Detail::smaller_side_px(const cover::Copy& copy, const Extent& extent) const {
   const Space space = eye_from_room_.space;
   const geometry::Ambient c = geometry::matrix(eye_from_room_ * copy.cover_from_room) * extent.centre;
-  const double sine = std::hypot(c.x, c.y), r = geometry::sin_k(space, std::min(extent.radius, space == Space::spherical ? std::numbers::pi / 2 : extent.radius));
+  const double sine = std::hypot(c.x, c.y),
+               r = geometry::sin_k(space, std::min(extent.radius, space == Space::spherical ? std::numbers::pi / 2 : extent.radius));
   if (!(sine > r)) return kCannotTell;
   const double away = geometry::arc_k(space, c.w, sine), wide = 2 * std::asin(r / sine);
-  const double first = std::max(0.0, away - extent.radius), near = space == Space::spherical ? way_on(copy.sheet, first, away + extent.radius).from : first;
+  const double first = std::max(0.0, away - extent.radius),
+               near = space == Space::spherical ? way_on(copy.sheet, first, away + extent.radius).from : first;
   const double tall = near > 0 ? (extent.high - extent.low) / near : kCannotTell;
   return std::min(wide, tall) * densest(sight_);
 }

@@ -19,12 +19,13 @@ struct Extent {
 class Detail {
  public:
   Detail(const place::Eye& eye, const BendOptions& options);
-  /// A bound of the pixels that a unit of length takes in the picture anywhere in the extent, in the copy: whatever is displaced by less than
-  /// 1 / this is displaced by less than a pixel. Infinite where it cannot tell: around the eye, and where S² is torn. What lies outside of a
-  /// perspective picture counts an eighth, as for bending. `margin`: displacements reach that far beyond the extent.
+  /// A bound of the pixels that a unit of length takes in the picture anywhere in the extent, in the copy: whatever is displaced by less
+  /// than 1 / this is displaced by less than a pixel. Infinite where it cannot tell: around the eye, and where S² is torn. What lies
+  /// outside of a perspective picture counts an eighth, as for bending. `margin`: displacements reach that far beyond the extent.
   /// Formula: a displacement (radial, transverse, upright) at distance r is seen as (δr, δt·r/sinκ r, δz) at distance |(r, z)| ≥ r.
   [[nodiscard]] double pixels_per_length(const cover::Copy& copy, const Extent& extent, double margin) const;
-  /// The smaller side of the extent as it is seen, in pixels at most: of something narrower than that a picture shows little. Infinite around the eye.
+  /// The smaller side of the extent as it is seen, in pixels at most: of something narrower than that a picture shows little. Infinite
+  /// around the eye.
   [[nodiscard]] double smaller_side_px(const cover::Copy& copy, const Extent& extent) const;
 
  private:

@@ -1,7 +1,7 @@
 // An error counts as it is seen: a chord is wrong by the angle between the true point and the nearest seen point of the chord. Depth along
-// the line of sight is invisible but decides what hides what, and where two surfaces meet: it may be wrong by as much and no more. What lies outside of a perspective
-// picture, by more than its own error, may be kOutside times coarser: it can never be drawn, but who turns the exported scene in a viewer
-// should still see a room.
+// the line of sight is invisible but decides what hides what, and where two surfaces meet: it may be wrong by as much and no more. What
+// lies outside of a perspective picture, by more than its own error, may be kOutside times coarser: it can never be drawn, but who turns
+// the exported scene in a viewer should still see a room.
 #include "compiler/bend/sight.h"
 
 #include <algorithm>

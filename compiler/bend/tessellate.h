@@ -8,7 +8,8 @@
 
 namespace orbc::bend {
 
-/// A part of the room made ready for bending many times: its edges, each once, and how large it is. Uv go beside it: copies may differ in them.
+/// A part of the room made ready for bending many times: its edges, each once, and how large it is. Uv go beside it: copies may differ in
+/// them.
 struct PartNet {
   const place::PlacedMesh* mesh = nullptr;
   PointColumns points;

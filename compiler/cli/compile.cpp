@@ -20,8 +20,9 @@ std::string format_of(const CompileArguments& a) {
   const std::string ending = std::filesystem::path(a.output).extension().string();
   for (const char* known : {"pov", "glb", "gltf", "svg"})
     if (ending == std::string(".") + known) return known;
-  throw UsageError(a.output == "-" ? "say which format goes to standard output: -f pov, glb, gltf or svg"
-                                   : fmt::format("cannot tell the format from \"{}\"; end it in .pov, .glb, .gltf or .svg, or use --format", a.output));
+  throw UsageError(a.output == "-"
+                       ? "say which format goes to standard output: -f pov, glb, gltf or svg"
+                       : fmt::format("cannot tell the format from \"{}\"; end it in .pov, .glb, .gltf or .svg, or use --format", a.output));
 }
 
 std::string stem_of(const std::string& output) {
@@ -43,14 +44,16 @@ driver::Tiling::Model model_of(const std::string& name) {
 }
 
 int write_tiling(const driver::Opened& opened, const CompileArguments& a, const Common& common) {
-  const auto tiling = driver::tile(opened, model_of(a.model), a.colour == "length" ? driver::Tiling::Colouring::length : driver::Tiling::Colouring::parity);
+  const auto tiling =
+      driver::tile(opened, model_of(a.model), a.colour == "length" ? driver::Tiling::Colouring::length : driver::Tiling::Colouring::parity);
   if (!tiling) return print(tiling.error(), common), kSceneWrong;
   write_files(svg::write_svg(*tiling), a.output);
   if (!common.quiet) fmt::print(stderr, "{}: {} copies of {}\n", a.output, tiling->copies.size(), tiling->title);
   return kDone;
 }
 
-std::vector<driver::File> exported(const driver::Product& product, const std::string& format, const std::string& output, bool nodes_per_copy) {
+std::vector<driver::File> exported(const driver::Product& product, const std::string& format, const std::string& output,
+                                   bool nodes_per_copy) {
   if (format == "pov") {
     pov::PovOptions options;
     options.name = stem_of(output);
@@ -67,7 +70,8 @@ std::vector<driver::File> exported(const driver::Product& product, const std::st
 void print_notes(const driver::Compiled& compiled, const std::string& format, const CompileArguments& a, const Common& common) {
   Diagnostics notes = compiled.notes;
   if (compiled.product.native && format != "pov")
-    notes.push_back(make_warning("gltf.native-lights-shared", "lamps of glTF are points and cones that light every copy, not their own alone; ambient light is left out",
+    notes.push_back(make_warning("gltf.native-lights-shared",
+                                 "lamps of glTF are points and cones that light every copy, not their own alone; ambient light is left out",
                                  "draw it with POV-Ray, or bake the light (`lights: baked`)"));
   Common told = common;
   told.quiet = common.quiet && !a.tell_notes;
@@ -93,13 +97,17 @@ int compile(const CompileArguments& a, const Common& common) {
   if (a.output.empty() && !a.plan) throw UsageError("say where to write: -o FILE, or -o - for standard output");
   const std::string format = a.plan ? "glb" : format_of(a);
   if (a.output == "-" && format == "gltf") throw UsageError("a .gltf has files beside it and cannot go to standard output; use -f glb");
-  if (a.output == "-" && (common.json || a.report == "-")) throw UsageError("only one thing can go to standard output: the scene, the report or --json");
+  if (a.output == "-" && (common.json || a.report == "-"))
+    throw UsageError("only one thing can go to standard output: the scene, the report or --json");
   const driver::CompileOptions options = compile_options(a);
   const auto opened = driver::open_scene(a.scene.scene, overrides_of(a.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;
   print(opened->notes, common);
   if (opened->scene.bake.atlas == scene::AtlasDepth::exr && format.substr(0, 2) == "gl")
-    return print({make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR", "use `atlas: 16` (--atlas 16), or write .pov", opened->scene.span)}, common), kSceneWrong;
+    return print({make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR",
+                             "use `atlas: 16` (--atlas 16), or write .pov", opened->scene.span)},
+                 common),
+           kSceneWrong;
   if (format == "svg") return write_tiling(*opened, a, common);
 
   ProgressBar bar(!common.quiet && stderr_is_terminal());
@@ -121,7 +129,8 @@ int compile(const CompileArguments& a, const Common& common) {
   bar.clear();
   const driver::Report& r = compiled->report;
   if (!common.quiet)
-    fmt::print(stderr, "{}: {} copies, {} triangles, true within {:.3g} px\n", a.output == "-" ? "standard output" : a.output, r.copies, r.triangles, r.error_bound_px);
+    fmt::print(stderr, "{}: {} copies, {} triangles, true within {:.3g} px\n", a.output == "-" ? "standard output" : a.output, r.copies,
+               r.triangles, r.error_bound_px);
   return kDone;
 }
 

@@ -78,8 +78,9 @@ std::string json_text(const Facts& f) {
   add("moduli", std::to_string(room::summarise(f.room).moduli));
   const int cover = room::summarise(f.room).translational_cover;
   add("translational_cover", cover ? std::to_string(cover) : "null");
-  add("certificate", fmt::format("{{\"convex\": {}, \"angle_residual\": {}, \"closure_residual\": {}, \"area_residual\": {}}}", f.room.certificate.convex,
-                                 number(f.room.certificate.angle_residual), number(f.room.certificate.closure_residual), number(f.room.certificate.area_residual)));
+  add("certificate", fmt::format("{{\"convex\": {}, \"angle_residual\": {}, \"closure_residual\": {}, \"area_residual\": {}}}",
+                                 f.room.certificate.convex, number(f.room.certificate.angle_residual),
+                                 number(f.room.certificate.closure_residual), number(f.room.certificate.area_residual)));
   return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
 }
 
@@ -100,21 +101,25 @@ std::string people_text(const Facts& f) {
   line("space", f.tiles ? space_sentence(f) : fmt::format("{}; no orbifold: its copies do not fit together", geometry::name(f.space)));
   const Rational chi = notation::euler_characteristic(f.orbifold);
   line("chi", to_string(chi));
-  line("area", f.space == geometry::Space::euclidean ? fmt::format("{:.12g}", f.room.area) : fmt::format("{:.12g}  (= 2 pi |chi|)", f.room.area));
+  line("area",
+       f.space == geometry::Space::euclidean ? fmt::format("{:.12g}", f.room.area) : fmt::format("{:.12g}  (= 2 pi |chi|)", f.room.area));
   if (f.tiles) {
     if (const auto order = notation::group_order(f.orbifold)) line("group", fmt::format("{} copies in all", to_string(*order)));
-    else if (const auto rate = notation::growth_rate(f.orbifold)) line("growth rate", f.space == geometry::Space::euclidean ? "1 (polynomial)" : fmt::format("{:.12g}", *rate));
+    else if (const auto rate = notation::growth_rate(f.orbifold))
+      line("growth rate", f.space == geometry::Space::euclidean ? "1 (polynomial)" : fmt::format("{:.12g}", *rate));
     std::vector<std::string> counts;
     for (std::size_t i = 0; i < f.copies.size() && i < kShownCounts; ++i) counts.push_back(to_string(f.copies[i]));
     line("copies by bounces", fmt::format("{}{}", fmt::join(counts, " "), f.copies.size() > kShownCounts ? " ..." : ""));
   }
-  if (const int cover = room::summarise(f.room).translational_cover) line("translations", fmt::format("{} copies make the translational cover", cover));
+  if (const int cover = room::summarise(f.room).translational_cover)
+    line("translations", fmt::format("{} copies make the translational cover", cover));
   line("inradius", f.room.inradius > 0 ? fmt::format("{:.12g}", f.room.inradius) : "none: no circle touches all walls");
   line("free lengths", std::to_string(room::summarise(f.room).moduli));
   if (f.room.corners.empty()) line("wall 1", fmt::format("length {:.12g}, no corner", f.room.walls.front().length));
   for (std::size_t i = 0; i < f.room.corners.size(); ++i)
-    line(fmt::format("corner {}", i + 1).c_str(), fmt::format("{:>9.5f} deg    wall {} has length {:.12g}{}", f.room.corners[i].angle * 180 / 3.14159265358979323846, i + 1,
-                                                              f.room.walls[i].length, f.room.walls[i].reflects ? "" : " (plain end wall)"));
+    line(fmt::format("corner {}", i + 1).c_str(),
+         fmt::format("{:>9.5f} deg    wall {} has length {:.12g}{}", f.room.corners[i].angle * 180 / 3.14159265358979323846, i + 1,
+                     f.room.walls[i].length, f.room.walls[i].reflects ? "" : " (plain end wall)"));
   return text;
 }
 
@@ -136,9 +141,12 @@ int enumerate(const EnumerateArguments& a, const Common& common) {
   const auto done = notation::enumerate(a.corners, a.max_order, [&](const notation::Orbifold& orbifold, geometry::Space space) {
     const std::string name = geometry::name(space);
     if (!a.space.empty() && a.space != name) return true;
-    if (common.json) text += fmt::format("{}\n  {{\"notation\": \"{}\", \"space\": \"{}\", \"chi\": \"{}\"}}", first ? "" : ",", notation::to_text(orbifold), name,
-                                         to_string(notation::euler_characteristic(orbifold)));
-    else text += name == last ? " " + notation::to_text(orbifold) : fmt::format("{}{}: {}", first ? "" : "\n", name, notation::to_text(orbifold));
+    if (common.json)
+      text += fmt::format("{}\n  {{\"notation\": \"{}\", \"space\": \"{}\", \"chi\": \"{}\"}}", first ? "" : ",",
+                          notation::to_text(orbifold), name, to_string(notation::euler_characteristic(orbifold)));
+    else
+      text +=
+          name == last ? " " + notation::to_text(orbifold) : fmt::format("{}{}: {}", first ? "" : "\n", name, notation::to_text(orbifold));
     first = false, last = name;
     if (text.size() > 1 << 20) write_output("-", text), text.clear();
     if (interrupted()) throw Cancelled();

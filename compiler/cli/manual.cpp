@@ -55,7 +55,8 @@ std::string bash(const CLI::App& app) {
     cases += fmt::format("    {}) words=\"{}\";;\n", command->get_name(), fmt::join(flags(*command), " "));
   }
   return fmt::format(
-      "_orbc() {{\n  local current=${{COMP_WORDS[COMP_CWORD]}} words=\n  if [ \"$COMP_CWORD\" -eq 1 ]; then words=\"{}\"; else\n  case ${{COMP_WORDS[1]}} in\n{}"
+      "_orbc() {{\n  local current=${{COMP_WORDS[COMP_CWORD]}} words=\n  if [ \"$COMP_CWORD\" -eq 1 ]; then words=\"{}\"; else\n  case "
+      "${{COMP_WORDS[1]}} in\n{}"
       "  esac; fi\n  if [[ $current == -* || $COMP_CWORD -eq 1 ]]; then COMPREPLY=($(compgen -W \"$words {}\" -- \"$current\"))\n"
       "  else COMPREPLY=($(compgen -f -- \"$current\")); fi\n}}\ncomplete -o filenames -F _orbc orbc\n",
       commands, cases, fmt::join(flags(app), " "));
@@ -64,7 +65,8 @@ std::string bash(const CLI::App& app) {
 std::string zsh(const CLI::App& app) {
   const auto quoted = [](std::string text) {
     std::string out;
-    for (const char c : text.substr(0, text.find('\n'))) out += c == '\'' ? std::string("'\\''") : c == '[' || c == ']' || c == ':' ? std::string("\\") + c : std::string(1, c);
+    for (const char c : text.substr(0, text.find('\n')))
+      out += c == '\'' ? std::string("'\\''") : c == '[' || c == ']' || c == ':' ? std::string("\\") + c : std::string(1, c);
     return out;
   };
   std::string commands, cases;
@@ -73,11 +75,15 @@ std::string zsh(const CLI::App& app) {
     std::string arguments;
     for (const CLI::Option* option : options_of(*command))
       for (const std::string& name : option->get_lnames())
-        arguments += fmt::format(" '--{}[{}]{}'", name, quoted(option->get_description()), option->get_expected_max() > 0 ? ":value:_files" : "");
+        arguments +=
+            fmt::format(" '--{}[{}]{}'", name, quoted(option->get_description()), option->get_expected_max() > 0 ? ":value:_files" : "");
     cases += fmt::format("    {}) _arguments{} '*:file:_files';;\n", command->get_name(), arguments);
   }
-  return fmt::format("#compdef orbc\n_orbc() {{\n  local -a commands=({})\n  if (( CURRENT == 2 )); then _describe command commands; return; fi\n  local command=$words[2]\n"
-                     "  shift words; (( CURRENT-- ))\n  case $command in\n{}  esac\n}}\n_orbc \"$@\"\n", commands, cases);
+  return fmt::format(
+      "#compdef orbc\n_orbc() {{\n  local -a commands=({})\n  if (( CURRENT == 2 )); then _describe command commands; return; fi\n  local "
+      "command=$words[2]\n"
+      "  shift words; (( CURRENT-- ))\n  case $command in\n{}  esac\n}}\n_orbc \"$@\"\n",
+      commands, cases);
 }
 
 std::string fish(const CLI::App& app) {
@@ -89,11 +95,12 @@ std::string fish(const CLI::App& app) {
   };
   std::string text;
   for (const CLI::App* command : commands_of(app)) {
-    text += fmt::format("complete -c orbc -n __fish_use_subcommand -f -a {} -d '{}'\n", command->get_name(), quoted(command->get_description()));
+    text += fmt::format("complete -c orbc -n __fish_use_subcommand -f -a {} -d '{}'\n", command->get_name(),
+                        quoted(command->get_description()));
     for (const CLI::Option* option : options_of(*command))
       for (const std::string& name : option->get_lnames())
-        text += fmt::format("complete -c orbc -n '__fish_seen_subcommand_from {}' -l {} -d '{}'{}\n", command->get_name(), name, quoted(option->get_description()),
-                            option->get_expected_max() > 0 ? " -r" : "");
+        text += fmt::format("complete -c orbc -n '__fish_seen_subcommand_from {}' -l {} -d '{}'{}\n", command->get_name(), name,
+                            quoted(option->get_description()), option->get_expected_max() > 0 ? " -r" : "");
   }
   return text;
 }
@@ -101,8 +108,9 @@ std::string fish(const CLI::App& app) {
 }  // namespace
 
 std::string man_page(const CLI::App& app) {
-  std::string text = fmt::format(".TH ORBC 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\norbc \\- {}\n.SH SYNOPSIS\n.B orbc\n\\fIcommand\\fR [\\fIoptions\\fR]\n", roff(app.version()),
-                                 roff("compile rooms with mirrors: orbifolds to POV-Ray, Blender and SVG"));
+  std::string text = fmt::format(
+      ".TH ORBC 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\norbc \\- {}\n.SH SYNOPSIS\n.B orbc\n\\fIcommand\\fR [\\fIoptions\\fR]\n",
+      roff(app.version()), roff("compile rooms with mirrors: orbifolds to POV-Ray, Blender and SVG"));
   text += ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH OPTIONS\n";
   for (const CLI::Option* option : options_of(app)) text += option_entry(*option);
   text += ".SH COMMANDS\n";
@@ -111,7 +119,9 @@ std::string man_page(const CLI::App& app) {
     for (const CLI::Option* option : options_of(*command)) text += option_entry(*option);
     if (const std::string footer = command->get_footer(); !footer.empty()) text += ".PP\n.nf\n" + roff(footer) + "\n.fi\n";
   }
-  text += ".SH EXIT STATUS\n.TP\n.B 0\ndone\n.TP\n.B 1\nthe scene is wrong\n.TP\n.B 2\nusage\n.TP\n.B 3\nthe machine: disk, memory, missing renderer\n";
+  text +=
+      ".SH EXIT STATUS\n.TP\n.B 0\ndone\n.TP\n.B 1\nthe scene is wrong\n.TP\n.B 2\nusage\n.TP\n.B 3\nthe machine: disk, memory, missing "
+      "renderer\n";
   return text;
 }
 

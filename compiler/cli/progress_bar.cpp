@@ -33,7 +33,9 @@ Progress ProgressBar::progress() {
   Progress progress;
   progress.cancelled = &g_interrupted;
   if (shown_)
-    progress.report = [this](std::string_view stage, std::uint64_t done, std::uint64_t total, std::string_view unit) { show(stage, done, total, unit); };
+    progress.report = [this](std::string_view stage, std::uint64_t done, std::uint64_t total, std::string_view unit) {
+      show(stage, done, total, unit);
+    };
   return progress;
 }
 

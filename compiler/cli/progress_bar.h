@@ -8,8 +8,8 @@
 
 namespace orbc::cli {
 
-/// One line on a terminal that tells stage, share done, rate and the time that remains; redrawn ten times a second at most, erased at the end.
-/// Writes nothing at all unless `shown`.
+/// One line on a terminal that tells stage, share done, rate and the time that remains; redrawn ten times a second at most, erased at the
+/// end. Writes nothing at all unless `shown`.
 class ProgressBar {
  public:
   explicit ProgressBar(bool shown) : shown_(shown) {}

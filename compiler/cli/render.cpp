@@ -29,12 +29,14 @@ int side_of(int samples) {
   return side;
 }
 
-std::vector<std::string> drawing_command(const RenderArguments& a, const driver::Opened& opened, const std::string& scene, const std::string& picture, const Common& common) {
+std::vector<std::string> drawing_command(const RenderArguments& a, const driver::Opened& opened, const std::string& scene,
+                                         const std::string& picture, const Common& common) {
   std::vector<std::string> command;
   if (a.engine == "povray") {
     command = {shipped_script("povray-pipe"), scene, "-o", picture};
     const int side = side_of(a.samples);
-    if (side > 1) command.insert(command.end(), {fmt::format("+W{}", side * opened.eye.width), fmt::format("+H{}", side * opened.eye.height)});
+    if (side > 1)
+      command.insert(command.end(), {fmt::format("+W{}", side * opened.eye.width), fmt::format("+H{}", side * opened.eye.height)});
     if (common.threads > 0) command.push_back(fmt::format("+WT{}", common.threads));
   } else {
     command = {shipped_script("render_blender.py"), scene, "-o", picture, "--samples", std::to_string(a.samples)};
@@ -76,7 +78,10 @@ bool ends_with(const std::string& text, const std::string& ending) {
 }
 
 render::Pass pass_of(const std::string& name) {
-  for (const auto& [known, pass] : {std::pair{"depth", render::Pass::depth}, {"normal", render::Pass::normal}, {"object", render::Pass::object}, {"bounces", render::Pass::bounces},
+  for (const auto& [known, pass] : {std::pair{"depth", render::Pass::depth},
+                                    {"normal", render::Pass::normal},
+                                    {"object", render::Pass::object},
+                                    {"bounces", render::Pass::bounces},
                                     {"weight", render::Pass::weight}})
     if (name == known) return pass;
   return render::Pass::color;
@@ -95,14 +100,19 @@ int render_here(const RenderArguments& a, const Common& common) {
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   const bool exr = ends_with(a.compile.output, ".exr");
-  write_output(a.compile.output, exr ? render::to_exr(film) : mesh::encode_png(render::to_image(film, pass_of(a.pass), opened->scene.exposure)));
+  write_output(a.compile.output,
+               exr ? render::to_exr(film) : mesh::encode_png(render::to_image(film, pass_of(a.pass), opened->scene.exposure)));
   bar.clear();
-  if (!common.quiet) fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", a.compile.output, film.width, film.height, a.samples, noise_text(film, opened->scene.exposure));
+  if (!common.quiet)
+    fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", a.compile.output, film.width, film.height, a.samples,
+               noise_text(film, opened->scene.exposure));
   return kDone;
 }
 
 }  // namespace
 
-int render(const RenderArguments& a, const Common& common) { return a.engine == "tracer" ? render_here(a, common) : render_elsewhere(a, common); }
+int render(const RenderArguments& a, const Common& common) {
+  return a.engine == "tracer" ? render_here(a, common) : render_elsewhere(a, common);
+}
 
 }  // namespace orbc::cli

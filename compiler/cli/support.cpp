@@ -53,12 +53,14 @@ std::array<int, 2> parse_size(const std::string& text) {
       throw UsageError("--size wants WIDTHxHEIGHT in pixels, each 1 to 32768, such as 800x600; got " + text);
     at = next + 1;
   }
-  if (static_cast<std::int64_t>(size[0]) * size[1] > std::int64_t{1} << 28) throw UsageError("--size " + text + " is more than 2^28 pixels");
+  if (static_cast<std::int64_t>(size[0]) * size[1] > std::int64_t{1} << 28)
+    throw UsageError("--size " + text + " is more than 2^28 pixels");
   return size;
 }
 
 std::uint64_t parse_bytes(const std::string& text) {
-  static const std::array<std::pair<const char*, double>, 7> kUnits{{{"", 1}, {"KiB", 1024.0}, {"MiB", 1048576.0}, {"GiB", 1073741824.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}}};
+  static const std::array<std::pair<const char*, double>, 7> kUnits{
+      {{"", 1}, {"KiB", 1024.0}, {"MiB", 1048576.0}, {"GiB", 1073741824.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}}};
   double value = 0;
   const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string unit(next, text.data() + text.size());
@@ -91,7 +93,8 @@ driver::Overrides overrides_of(const SceneArguments& arguments) {
 std::string shipped_script(const std::string& name) {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const std::filesystem::path folders[] = {program.parent_path().parent_path() / "share/orbc", program.parent_path().parent_path().parent_path() / "scripts",
+  const std::filesystem::path folders[] = {program.parent_path().parent_path() / "share/orbc",
+                                           program.parent_path().parent_path().parent_path() / "scripts",
                                            std::filesystem::path(ORBC_SOURCE_DIR) / "scripts"};
   for (const std::filesystem::path& folder : folders)
     if (std::filesystem::exists(folder / name, ignored)) return (folder / name).string();

@@ -17,7 +17,8 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Prints errors (and, unless quiet, warnings; with verbose, notes) to standard error; with --json errors also go to standard output as JSON.
+/// Prints errors (and, unless quiet, warnings; with verbose, notes) to standard error; with --json errors also go to standard output as
+/// JSON.
 void print(const Diagnostics& diagnostics, const Common& common);
 [[nodiscard]] std::string to_json(const Diagnostics& diagnostics);
 

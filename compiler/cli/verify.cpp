@@ -35,11 +35,14 @@ bool passes(const driver::Comparison& c, const VerifyArguments& a) {
 }
 
 std::string table(const std::vector<Verdict>& verdicts) {
-  std::string text = fmt::format("{:<10}{:>11}{:>11}{:>11}{:>11}{:>9}{:>9}{:>11}{:>11}\n", "against", "<= 1/255", "<= 2/255", "<= 4/255", "<= 8/255", "mean", "largest", "> 2, edge", "> 2, else");
+  std::string text = fmt::format("{:<10}{:>11}{:>11}{:>11}{:>11}{:>9}{:>9}{:>11}{:>11}\n", "against", "<= 1/255", "<= 2/255", "<= 4/255",
+                                 "<= 8/255", "mean", "largest", "> 2, edge", "> 2, else");
   for (const Verdict& v : verdicts) {
     const driver::Comparison& c = v.comparison;
-    text += fmt::format("{:<10}{:>10.3f}%{:>10.3f}%{:>10.3f}%{:>10.3f}%{:>9.4f}{:>9}{:>11}{:>11}  {}\n", v.engine, 100 * driver::share(c.within_1, c), 100 * driver::share(c.within_2, c),
-                        100 * driver::share(c.within_4, c), 100 * driver::share(c.within_8, c), c.mean, c.largest, c.beyond_on_edge, c.beyond_off_edge, v.passed ? "agrees" : "DIFFERS");
+    text += fmt::format("{:<10}{:>10.3f}%{:>10.3f}%{:>10.3f}%{:>10.3f}%{:>9.4f}{:>9}{:>11}{:>11}  {}\n", v.engine,
+                        100 * driver::share(c.within_1, c), 100 * driver::share(c.within_2, c), 100 * driver::share(c.within_4, c),
+                        100 * driver::share(c.within_8, c), c.mean, c.largest, c.beyond_on_edge, c.beyond_off_edge,
+                        v.passed ? "agrees" : "DIFFERS");
   }
   return text;
 }
@@ -48,8 +51,16 @@ std::string json(const std::vector<Verdict>& verdicts) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Verdict& v : verdicts) {
     const driver::Comparison& c = v.comparison;
-    list.push_back({{"engine", v.engine}, {"pixels", c.pixels}, {"within_1", driver::share(c.within_1, c)}, {"within_2", driver::share(c.within_2, c)}, {"within_4", driver::share(c.within_4, c)},
-                    {"within_8", driver::share(c.within_8, c)}, {"mean", c.mean}, {"largest", c.largest}, {"beyond_2_on_edges", c.beyond_on_edge}, {"beyond_2_elsewhere", c.beyond_off_edge},
+    list.push_back({{"engine", v.engine},
+                    {"pixels", c.pixels},
+                    {"within_1", driver::share(c.within_1, c)},
+                    {"within_2", driver::share(c.within_2, c)},
+                    {"within_4", driver::share(c.within_4, c)},
+                    {"within_8", driver::share(c.within_8, c)},
+                    {"mean", c.mean},
+                    {"largest", c.largest},
+                    {"beyond_2_on_edges", c.beyond_on_edge},
+                    {"beyond_2_elsewhere", c.beyond_off_edge},
                     {"agrees", v.passed}});
   }
   return list.dump(2) + "\n";
@@ -81,7 +92,8 @@ int verify(const VerifyArguments& a, const Common& common) {
     silent.quiet = true;
     if (const int code = render(render_arguments, silent); code != kDone) return code;
     drawn = decoded(render_arguments.compile.output);
-    if (drawn.width != reference.width || drawn.height != reference.height) throw std::runtime_error("the renderer's picture has another size");
+    if (drawn.width != reference.width || drawn.height != reference.height)
+      throw std::runtime_error("the renderer's picture has another size");
     Verdict verdict{engine, driver::compare(drawn, reference), false};
     verdict.passed = passes(verdict.comparison, a);
     verdicts.push_back(verdict);
@@ -95,7 +107,9 @@ int verify(const VerifyArguments& a, const Common& common) {
   bool all = true;
   for (const Verdict& v : verdicts) all = all && v.passed;
   if (!all && !opened->scene.lamps.empty() && !common.quiet)
-    fmt::print(stderr, "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.97 compares them fairly\n");
+    fmt::print(stderr,
+               "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.97 "
+               "compares them fairly\n");
   return all ? kDone : kSceneWrong;
 }
 

@@ -257,8 +257,8 @@ class Unfolder {
       next.word.push_back(static_cast<std::uint8_t>(wall));
       if (next.word.size() % 8 == 0) next.cover_from_room = geometry::renormalised(next.cover_from_room);
     }
-    // All beams that come into a copy through one wall see it alike: it is left out of all of them, or of none. So what it hides stays hidden by a
-    // panel in that wall's mirrors (driver/tail.h), and whole copies behind it need no wedge.
+    // All beams that come into a copy through one wall see it alike: it is left out of all of them, or of none. So what it hides stays
+    // hidden by a panel in that wall's mirrors (driver/tail.h), and whole copies behind it need no wedge.
     if (spec_.min_pixels > 0 && too_small(size_.of(next.cover_from_room), spec_)) return;
     next.wedge = wedge;
     next.sills = std::move(sills);

@@ -17,7 +17,8 @@ using Word = std::vector<std::uint8_t>;
 
 /// Mirrors on floor and ceiling stack images of the room: heights z of the room are at sign·z + offset.
 struct Storey {
-  int number = 0;                   ///< 0 the room itself, 1, 2, … above, −1, −2, … below; |number| mirrors on floor and ceiling lie between
+  /// 0 the room itself, 1, 2, … above, −1, −2, … below; |number| mirrors on floor and ceiling lie between
+  int number = 0;
   double sign = 1, offset = 0;
 };
 
@@ -28,8 +29,10 @@ struct Copy {
   int bounces = 0;                  ///< mirrors between the eye and this sheet of this copy; = word length on sheet 0
   int sheet = 0;                    ///< S²: distances r + kπ …: sheet k shows what lies k half turns away; 0 elsewhere
   scene::Color weight{1, 1, 1};     ///< product of reflectance × tint on the way
-  std::uint64_t nearer_walls = 0;   ///< bit i: wall i faces the eye (the copy across it is nearer); that wall is drawn there. Up to 64 walls; all further ones are drawn.
-  std::optional<Wedge> wedge;       ///< what is seen of this copy in other directions is not this copy: it is cut there. Nothing: all of it is drawn
+  /// Bit i: wall i faces the eye (the copy across it is nearer); that wall is drawn there. Up to 64 walls; all further ones are drawn.
+  std::uint64_t nearer_walls = 0;
+  /// What is seen of this copy in other directions is not this copy: it is cut there. Nothing: all of it is drawn
+  std::optional<Wedge> wedge;
   std::vector<Sill> sills;          ///< with a wedge only: of what it holds, this copy is what is seen above and below these
   Storey storey;
 };

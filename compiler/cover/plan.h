@@ -11,7 +11,8 @@
 namespace orbc::cover {
 
 struct PlanOptions {
-  std::uint64_t max_bytes = std::uint64_t{4} << 30;   ///< each copy takes kBytesPerCopy at least; its triangles are foreseen by driver/estimate.h
+  /// Each copy takes kBytesPerCopy at least; its triangles are foreseen by driver/estimate.h
+  std::uint64_t max_bytes = std::uint64_t{4} << 30;
 };
 
 /// What a product takes, without the pictures.

@@ -1,6 +1,6 @@
-// Cut-offs that unfold and plan share. A word goes on only behind the mirrors it has passed (a reduced word crosses each of them for good), so
-// a subtree may be left out as soon as a copy at the distance of the last mirror would be too small. On S² nothing gets small, and nothing
-// is left out before its visit.
+// Cut-offs that unfold and plan share. A word goes on only behind the mirrors it has passed (a reduced word crosses each of them for good),
+// so a subtree may be left out as soon as a copy at the distance of the last mirror would be too small. On S² nothing gets small, and
+// nothing is left out before its visit.
 #include "compiler/cover/reach.h"
 
 #include <algorithm>

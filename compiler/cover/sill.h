@@ -7,8 +7,8 @@
 
 namespace orbc::cover {
 
-/// A height on a wall that rays cross on their way, where mirrors above each other meet: those that pass above it see something else than those below.
-/// What divides them, as the eye sees it, is the surface of all rays through the sill.
+/// A height on a wall that rays cross on their way, where mirrors above each other meet: those that pass above it see something else than
+/// those below. What divides them, as the eye sees it, is the surface of all rays through the sill.
 struct Sill {
   geometry::Line line;              ///< the wall's, in eye coordinates, on either side
   int sheet = 0;                    ///< S²: half turns before it is met
@@ -33,7 +33,9 @@ struct Sill {
 /// Exact:  what is dropped bounds nothing for any bearing, since slopes through one height fall with the distance.
 void narrow(std::vector<Sill>& sills, const Sill& next, double eye_z);
 
-/// Whether no ray of the wedge passes all sills and crosses `line` at heights low … high. Measured at some bearings, with a margin: true is true.
-[[nodiscard]] bool nothing_passes(geometry::Space space, const std::vector<Sill>& sills, const Sill& low, const Sill& high, const Wedge& wedge, double eye_z);
+/// Whether no ray of the wedge passes all sills and crosses `line` at heights low … high. Measured at some bearings, with a margin: true is
+/// true.
+[[nodiscard]] bool nothing_passes(geometry::Space space, const std::vector<Sill>& sills, const Sill& low, const Sill& high,
+                                  const Wedge& wedge, double eye_z);
 
 }  // namespace orbc::cover

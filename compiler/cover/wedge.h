@@ -5,8 +5,8 @@
 
 namespace orbc::cover {
 
-/// A unit direction on the floor as seen from the eye, in eye coordinates. As a border it stands for the upright plane through the eye along it: the covector
-/// (0, −y, x), positive to the left. The eye lies on all these planes, so bending keeps them flat.
+/// A unit direction on the floor as seen from the eye, in eye coordinates. As a border it stands for the upright plane through the eye
+/// along it: the covector (0, −y, x), positive to the left. The eye lies on all these planes, so bending keeps them flat.
 struct Bearing {
   double x = 1, y = 0;
 };
@@ -17,7 +17,8 @@ struct Bearing {
 [[nodiscard]] inline bool ahead(const Bearing& a, const Bearing& b) { return a.x * b.x + a.y * b.y > 0; }
 [[nodiscard]] inline bool same(const Bearing& a, const Bearing& b) { return a.x == b.x && a.y == b.y; }
 
-/// The directions from `from` counter-clockwise to `to`, less than half a turn. Neighbouring wedges store their common border bit by bit alike.
+/// The directions from `from` counter-clockwise to `to`, less than half a turn. Neighbouring wedges store their common border bit by bit
+/// alike.
 struct Wedge {
   Bearing from, to;
 };

@@ -1,5 +1,6 @@
-// Minimax: the picture's largest error is smallest when all copies share one tolerance. So a single number is searched: doubled until the budget is met,
-// then bisected on its logarithm. Each step bends for real (without colours, which no triangle depends on): splitting and cutting cannot be guessed exactly.
+// Minimax: the picture's largest error is smallest when all copies share one tolerance. So a single number is searched: doubled until the
+// budget is met, then bisected on its logarithm. Each step bends for real (without colours, which no triangle depends on): splitting and
+// cutting cannot be guessed exactly.
 #include "compiler/driver/budget.h"
 
 #include <fmt/format.h>
@@ -25,9 +26,16 @@ struct Means {
 
 class Search {
  public:
-  Search(const Opened& opened, const Levels& levels, const std::vector<cover::Copy>& copies, std::uint64_t budget, const bend::BendOptions& options,
-         bool expected, const Executor& executor)
-      : opened_(opened), room_(*opened.room), levels_(levels), copies_(copies), budget_(budget), options_(options), expected_(expected), executor_(executor) {
+  Search(const Opened& opened, const Levels& levels, const std::vector<cover::Copy>& copies, std::uint64_t budget,
+         const bend::BendOptions& options, bool expected, const Executor& executor)
+      : opened_(opened),
+        room_(*opened.room),
+        levels_(levels),
+        copies_(copies),
+        budget_(budget),
+        options_(options),
+        expected_(expected),
+        executor_(executor) {
     options_.advise = false;
     options_.max_triangles = bending_limit(budget);
     for (const place::PlacedMesh& part : room_.parts) no_uv_.emplace_back(part.floor.size());

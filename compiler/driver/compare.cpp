@@ -20,7 +20,9 @@ int pixel_difference(const std::uint8_t* p, const std::uint8_t* q) {
 // Marks the edges of a picture, widened by one pixel in each direction.
 void mark_edges(const mesh::Image& image, Mask& near_edge) {
   const int w = image.width, h = image.height;
-  const auto at = [&](int x, int y) { return image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)); };
+  const auto at = [&](int x, int y) {
+    return image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x));
+  };
   const auto is_edge = [&](int x, int y) {
     return (x > 0 && pixel_difference(at(x, y), at(x - 1, y)) > 2) || (x + 1 < w && pixel_difference(at(x, y), at(x + 1, y)) > 2) ||
            (y > 0 && pixel_difference(at(x, y), at(x, y - 1)) > 2) || (y + 1 < h && pixel_difference(at(x, y), at(x, y + 1)) > 2);
@@ -29,7 +31,8 @@ void mark_edges(const mesh::Image& image, Mask& near_edge) {
     for (int x = 0; x < w; ++x)
       if (is_edge(x, y))
         for (int v = std::max(0, y - 1); v <= std::min(h - 1, y + 1); ++v)
-          for (int u = std::max(0, x - 1); u <= std::min(w - 1, x + 1); ++u) near_edge[static_cast<std::size_t>(v) * static_cast<std::size_t>(w) + static_cast<std::size_t>(u)] = 1;
+          for (int u = std::max(0, x - 1); u <= std::min(w - 1, x + 1); ++u)
+            near_edge[static_cast<std::size_t>(v) * static_cast<std::size_t>(w) + static_cast<std::size_t>(u)] = 1;
 }
 
 Mask edges_of_either(const mesh::Image& a, const mesh::Image& b) {
@@ -71,10 +74,12 @@ mesh::Image averaged(const mesh::Image& large, int side) {
       std::array<double, 3> sum{};
       for (int v = 0; v < side; ++v)
         for (int u = 0; u < side; ++u) {
-          const std::size_t at = 4 * (static_cast<std::size_t>(y * side + v) * static_cast<std::size_t>(large.width) + static_cast<std::size_t>(x * side + u));
+          const std::size_t at =
+              4 * (static_cast<std::size_t>(y * side + v) * static_cast<std::size_t>(large.width) + static_cast<std::size_t>(x * side + u));
           for (std::size_t c = 0; c < 3; ++c) sum[c] += linear[large.rgba[at + c]];
         }
-      for (const double channel : sum) image.rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(channel / (side * side)))));
+      for (const double channel : sum)
+        image.rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(channel / (side * side)))));
       image.rgba.push_back(255);
     }
   return image;

@@ -21,11 +21,12 @@ struct Comparison {
 /// In: pictures of equal size.
 [[nodiscard]] Comparison compare(const mesh::Image& a, const mesh::Image& b);
 
-/// Differences made visible: grey = a darkened copy of `a` where they agree within 2/255, yellow = beyond on an edge, red = beyond off the edges.
+/// Differences made visible: grey = a darkened copy of `a` where they agree within 2/255, yellow = beyond on an edge, red = beyond off the
+/// edges.
 [[nodiscard]] mesh::Image difference_picture(const mesh::Image& a, const mesh::Image& b);
 
-/// Averages blocks of side × side pixels in linear light: a picture drawn `side` times larger becomes one of side² samples a pixel, at the very
-/// points that render::sample_points names. In: width and height divisible by side.
+/// Averages blocks of side × side pixels in linear light: a picture drawn `side` times larger becomes one of side² samples a pixel, at the
+/// very points that render::sample_points names. In: width and height divisible by side.
 [[nodiscard]] mesh::Image averaged(const mesh::Image& large, int side);
 
 /// value / pixels as a share in [0, 1].

@@ -39,8 +39,8 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
   for (std::size_t i = 0; i < copies.size(); ++i) {
     const cover::Copy& c = copies[i];
     const bend::BentRange& r = ranges[i];
-    result.push_back({r.first_vertex, r.vertex_count, r.first_index, r.index_count, c.weight, c.word, c.bounces, c.sheet, c.cover_from_room.reversing, distance_to(c, eye),
-                      c.storey.number, 0, c.wedge});
+    result.push_back({r.first_vertex, r.vertex_count, r.first_index, r.index_count, c.weight, c.word, c.bounces, c.sheet,
+                      c.cover_from_room.reversing, distance_to(c, eye), c.storey.number, 0, c.wedge});
   }
   return result;
 }
@@ -74,8 +74,10 @@ ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels)
   return of;
 }
 
-/// Gives the room panels for its mirrors, and a look for each of their colours; where there is none the panels are open. Makes: which parts they are.
-std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<std::optional<scene::Color>>& colors, const std::vector<double>& bands, bool flat) {
+/// Gives the room panels for its mirrors, and a look for each of their colours; where there is none the panels are open. Makes: which parts
+/// they are.
+std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<std::optional<scene::Color>>& colors,
+                                      const std::vector<double>& bands, bool flat) {
   const std::size_t first = room.looks.size();
   for (const auto& color : colors) {
     place::Look look;
@@ -97,12 +99,15 @@ std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector
 
 /// Why a scene cannot be compiled at all.
 std::optional<Diagnostic> refusal(const Opened& opened, const CompileOptions& options, const std::vector<cover::Copy>& copies) {
-  if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(), [](const place::PlacedMirror& m) { return !(m.glow == scene::Color{}); })) {
+  if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(),
+                  [](const place::PlacedMirror& m) { return !(m.glow == scene::Color{}); })) {
     return make_error("driver.glowing-mirror", "a mirror that glows adds light to all that is seen in it: exports can only multiply",
                       "leave out `glow`, or draw the scene with the tracer (`orbc trace`)");
   }
-  if (options.bend.view == bend::View::disk && std::any_of(copies.begin(), copies.end(), [](const cover::Copy& c) { return !c.sills.empty(); })) {
-    return make_error("cover.stacked-mirrors", "the mirrors above each other that differ show their copies to one eye: --view disk has none",
+  if (options.bend.view == bend::View::disk &&
+      std::any_of(copies.begin(), copies.end(), [](const cover::Copy& c) { return !c.sills.empty(); })) {
+    return make_error("cover.stacked-mirrors",
+                      "the mirrors above each other that differ show their copies to one eye: --view disk has none",
                       "give them the same reflectance and tint, or leave out --view disk");
   }
   return std::nullopt;
@@ -139,14 +144,16 @@ struct Ready {
 enum class Purpose { product, plan };
 
 /// Levels of detail, and what a budget of triangles leaves. Makes: why it cannot be met, or nothing.
-Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, Ready& ready, const Executor& executor, const Progress& progress) {
+Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, Ready& ready, const Executor& executor,
+                          const Progress& progress) {
   const bool for_eye = options.bend.view == bend::View::eye;
   report(progress, "levels of detail", 0, 0);
   if (options.levels && for_eye) ready.levels = make_levels(*opened.room, executor);
   else ready.levels.resize(opened.room->parts.size());
   ready.hangs = for_eye;
   if (options.budget && for_eye) {
-    auto fitted = fit_to_budget(opened, ready.levels, ready.copies, *options.budget, ready.bending, opened.expected_background, executor, progress);
+    auto fitted =
+        fit_to_budget(opened, ready.levels, ready.copies, *options.budget, ready.bending, opened.expected_background, executor, progress);
     if (!fitted) return fitted.error();
     ready.copies = std::move(fitted->copies);
     ready.choice = std::move(fitted->choice);
@@ -156,7 +163,8 @@ Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, R
     ready.hangs = fitted->curtains;
     ready.curtains_dropped = !fitted->curtains && (opened.expected_background || opened.scene.cover.min_pixels > 0 || fitted->left_out > 0);
   } else {
-    ready.choice = for_eye ? choose_levels(*opened.room, ready.levels, ready.copies, opened.eye, ready.bending) : no_levels(*opened.room, ready.copies.size());
+    ready.choice = for_eye ? choose_levels(*opened.room, ready.levels, ready.copies, opened.eye, ready.bending)
+                           : no_levels(*opened.room, ready.copies.size());
   }
   ready.choice.model_of_copy.resize(ready.copies.size(), 0);
   ready.tally = tally(*opened.room, ready.levels, ready.choice);
@@ -171,7 +179,8 @@ void show(double exposure, Beyond& beyond) {
 }
 
 /// What lies beyond the cover's end. In: as in `make`. Where only a weight is asked for, the room need not be looked at closely.
-Beyond look(const Opened& opened, const Opened* lit, const Ready& ready, bool expected, const LeftOut& left_out, Purpose purpose, const Executor& executor) {
+Beyond look(const Opened& opened, const Opened* lit, const Ready& ready, bool expected, const LeftOut& left_out, Purpose purpose,
+            const Executor& executor) {
   constexpr double kRough = 0.004;   // of the room's radius
   const std::vector<double> bands = left_out ? bands_of(*opened.room, opened.eye) : std::vector<double>{};
   Beyond nothing{0, 0, opened.scene.cover.background, std::vector<std::optional<scene::Color>>(bands.size() + 1, scene::Color{})};
@@ -186,7 +195,8 @@ Beyond look(const Opened& opened, const Opened* lit, const Ready& ready, bool ex
 }
 
 /// Colours and models: of parts, levels, highlights and panels.
-Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions& options, Ready& ready, Purpose purpose, const Executor& executor, const Progress& progress) {
+Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions& options, Ready& ready, Purpose purpose,
+                  const Executor& executor, const Progress& progress) {
   Stock stock = stock_of(*opened.room, ready.levels, ready.choice);
   const bool for_eye = options.bend.view == bend::View::eye, expected = ready.hangs && opened.expected_background;
   const LeftOut left_out = ready.hangs ? left_out_below(opened, ready.left_out_px) : LeftOut{};
@@ -200,7 +210,8 @@ Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions&
   painting.highlights = painting.highlights && for_eye;
   painting.lit = purpose == Purpose::product;
   painting.deep = opened.scene.bake.atlas != scene::AtlasDepth::eight;
-  auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), light::bake_options(opened.scene.bake), painting, executor, progress);
+  auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), light::bake_options(opened.scene.bake), painting,
+                       executor, progress);
   if (!painted) return painted.error();
   ready.painted = std::move(painted).value();
   ready.models = models_of(ready.painted.atlas, stock, ready.choice);
@@ -210,11 +221,13 @@ Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions&
     for (const std::size_t i : parts) of.push_back({&ready.painted.atlas.room.parts[i], &ready.painted.atlas.uv[i], unsplit});
     return of;
   };
-  ready.curtains = hang(CutOffs(*opened.room, opened.scene.cover, left_out), ready.copies, {panels(plain, false), panels(banded, flat)}, ready.models, ready.choice.model_of_copy);
+  ready.curtains = hang(CutOffs(*opened.room, opened.scene.cover, left_out), ready.copies, {panels(plain, false), panels(banded, flat)},
+                        ready.models, ready.choice.model_of_copy);
   return {};
 }
 
-Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const Opened* lit, const CompileOptions& options, Purpose purpose, const Executor& executor, const Progress& progress) {
+Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const Opened* lit, const CompileOptions& options, Purpose purpose,
+                                         const Executor& executor, const Progress& progress) {
   auto ready = std::make_unique<Ready>();   // models point into it
   report(progress, "unfolding", 0, 0);
   if (const auto no = refusal(opened, options, {})) return *no;
@@ -249,7 +262,8 @@ void part_what_glows(Ready& ready) {
   std::array<std::vector<bend::Model>, 3> parted;
   for (std::vector<bend::Model>& own : parted) own.resize(models);
   for (std::size_t m = 0; m < models; ++m)
-    for (const bend::Model::Part& part : ready.models[m].parts) parted[static_cast<std::size_t>(shine_of(room, *part.mesh))][m].parts.push_back(part);
+    for (const bend::Model::Part& part : ready.models[m].parts)
+      parted[static_cast<std::size_t>(shine_of(room, *part.mesh))][m].parts.push_back(part);
   ready.models = std::move(parted[0]);
   ready.shine.assign(whole, Shine::lit);
   for (const Shine shine : {Shine::glowing, Shine::lamp}) {
@@ -282,21 +296,24 @@ struct Made {
 };
 
 /// In: `lit`: the scene whose lamps are to be hung into the product, opened is then its twin; or none.
-Result<Made> make(const Opened& opened, const Opened* lit, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+Result<Made> make(const Opened& opened, const Opened* lit, const CompileOptions& options, const Executor& executor,
+                  const Progress& progress) {
   auto prepared = get_ready(opened, lit, options, Purpose::product, executor, progress);
   if (!prepared) return prepared.error();
   Ready& ready = **prepared;
   if (lit) part_what_glows(ready);
   if (may_exceed(options, ready))
     if (const auto planned = estimated(opened, options, ready, executor); !planned) return planned.error();
-  auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending, executor, progress);
+  auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending,
+                         executor, progress);
   if (!bent) return bent.error();
   return Made{std::move(prepared).value(), std::move(bent).value()};
 }
 
-/// The same, never above the budget. That is met before there are colours; a baked picture cuts surfaces into blocks, whose triangles may be split in
-/// another order, and then a few more may come of it.
-Result<Made> make_within(const Opened& opened, const Opened* lit, const CompileOptions& options, const Executor& executor, const Progress& progress) {
+/// The same, never above the budget. That is met before there are colours; a baked picture cuts surfaces into blocks, whose triangles may
+/// be split in another order, and then a few more may come of it.
+Result<Made> make_within(const Opened& opened, const Opened* lit, const CompileOptions& options, const Executor& executor,
+                         const Progress& progress) {
   constexpr int kTries = 4;
   CompileOptions tried = options;
   for (int i = 0;; ++i) {
@@ -305,7 +322,8 @@ Result<Made> make_within(const Opened& opened, const Opened* lit, const CompileO
     const std::uint64_t triangles = made->bent.indices.size() / 3;
     if (triangles <= *options.budget) return made;
     if (i == kTries)
-      return make_error("bend.too-dense", fmt::format("{} triangles come out where {} are allowed", triangles, *options.budget), "allow more with --max-triangles");
+      return make_error("bend.too-dense", fmt::format("{} triangles come out where {} are allowed", triangles, *options.budget),
+                        "allow more with --max-triangles");
     tried.budget = *tried.budget - std::min(*tried.budget, 2 * (triangles - *options.budget));
   }
 }
@@ -314,12 +332,15 @@ Diagnostics notes_of(const CompileOptions& options, const Ready& ready) {
   Diagnostics notes;
   const std::string budget = fmt::format("--max-triangles {}", options.budget.value_or(0));
   if (ready.left_out > 0)
-    notes.push_back(make_warning("driver.copies-left-out",
-                                 fmt::format("{} leaves out {} copies that are smaller than {:.3g} px in the picture", budget, ready.left_out, ready.left_out_px),
-                                 "allow more triangles, or lower cover.max_bounces"));
+    notes.push_back(make_warning(
+        "driver.copies-left-out",
+        fmt::format("{} leaves out {} copies that are smaller than {:.3g} px in the picture", budget, ready.left_out, ready.left_out_px),
+        "allow more triangles, or lower cover.max_bounces"));
   if (ready.curtains_dropped)
-    notes.push_back(make_warning("driver.no-curtains", fmt::format("{} has no room for the panels that hide what is not drawn: the background is seen there", budget),
-                                 "allow more triangles"));
+    notes.push_back(
+        make_warning("driver.no-curtains",
+                     fmt::format("{} has no room for the panels that hide what is not drawn: the background is seen there", budget),
+                     "allow more triangles"));
   return notes;
 }
 
@@ -345,7 +366,8 @@ Product product_of(const Opened& opened, const CompileOptions& options, Ready& r
 
 Report report_of(const Opened& opened, const Ready& ready, const Product& product, double bend_error_px) {
   Report r;
-  r.copies = static_cast<std::uint64_t>(std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit; }));
+  r.copies = static_cast<std::uint64_t>(
+      std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit; }));
   r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
   r.error_bound_px = bend_error_px + ready.choice.error_px;
   r.highlights = ready.painted.highlights.counts;
@@ -372,8 +394,8 @@ Report report_of(const Opened& opened, const Ready& ready, const Product& produc
 Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
   const bool native = lit_natively(opened.scene);
   if (native && options.bend.view != bend::View::eye) {
-    return make_error("driver.native-view", "lamps of the renderer's own hang where one eye sees them: --view disk has none", "bake the light (`lights: baked`), or leave out --view disk",
-                      opened.scene.span);
+    return make_error("driver.native-view", "lamps of the renderer's own hang where one eye sees them: --view disk has none",
+                      "bake the light (`lights: baked`), or leave out --view disk", opened.scene.span);
   }
   std::optional<Opened> twin;
   if (native) twin.emplace(unlit_twin(opened));
@@ -403,8 +425,9 @@ Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, co
 std::string plan_json(const cover::Plan& p) {
   std::string per_bounces;
   for (const Integer& n : p.copies_per_bounces) per_bounces += (per_bounces.empty() ? "" : ", ") + to_string(n);
-  return "{\n  \"copies\": " + to_string(p.copies) + ",\n  \"copies_per_bounces\": [" + per_bounces + "],\n  \"sheets\": " + std::to_string(p.sheets) +
-         ",\n  \"triangles\": " + std::to_string(p.triangles) + ",\n  \"vertices\": " + std::to_string(p.vertices) + ",\n  \"bytes\": " + std::to_string(p.bytes) + "\n}\n";
+  return "{\n  \"copies\": " + to_string(p.copies) + ",\n  \"copies_per_bounces\": [" + per_bounces +
+         "],\n  \"sheets\": " + std::to_string(p.sheets) + ",\n  \"triangles\": " + std::to_string(p.triangles) +
+         ",\n  \"vertices\": " + std::to_string(p.vertices) + ",\n  \"bytes\": " + std::to_string(p.bytes) + "\n}\n";
 }
 
 Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring colouring) {
@@ -413,7 +436,8 @@ Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring
   std::vector<cover::Copy> first_sheet;
   for (cover::Copy& copy : *copies)
     if (copy.sheet == 0 && copy.storey.number == 0) first_sheet.push_back(std::move(copy));
-  return Tiling{notation::to_text(opened.scene.orbifold), opened.room->room, std::move(first_sheet), model, colouring, opened.eye.room_from_eye};
+  return Tiling{
+      notation::to_text(opened.scene.orbifold), opened.room->room, std::move(first_sheet), model, colouring, opened.eye.room_from_eye};
 }
 
 /// Of a bearing, counter-clockwise from the x direction of the eye.
@@ -421,13 +445,26 @@ static double degrees_of(const cover::Bearing& b) { return std::atan2(b.y, b.x) 
 
 std::string report_json(const Compiled& compiled) {
   const Report& r = compiled.report;
-  nlohmann::ordered_json json{{"orbifold", compiled.product.title}, {"copies", r.copies}, {"vertices", r.vertices}, {"triangles", r.triangles},
-                              {"triangles_without_levels", r.triangles_whole}, {"beams", r.beams}, {"words", r.words}, {"longest_word", r.longest_word},
-                              {"error_bound_px", r.error_bound_px}, {"tolerance_px", r.tolerance_px}, {"copies_left_out", r.left_out}, {"left_out_px", r.left_out_px}, {"weight_lost", r.weight_lost},
-                              {"weight_merged", r.weight_merged}, {"curtains", r.curtains}, {"curtains_dropped", r.curtains_dropped},
-                              {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
-                              {"lamps", compiled.product.native ? compiled.product.native->lamps.size() : 0},
-                              {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
+  nlohmann::ordered_json json{
+      {"orbifold", compiled.product.title},
+      {"copies", r.copies},
+      {"vertices", r.vertices},
+      {"triangles", r.triangles},
+      {"triangles_without_levels", r.triangles_whole},
+      {"beams", r.beams},
+      {"words", r.words},
+      {"longest_word", r.longest_word},
+      {"error_bound_px", r.error_bound_px},
+      {"tolerance_px", r.tolerance_px},
+      {"copies_left_out", r.left_out},
+      {"left_out_px", r.left_out_px},
+      {"weight_lost", r.weight_lost},
+      {"weight_merged", r.weight_merged},
+      {"curtains", r.curtains},
+      {"curtains_dropped", r.curtains_dropped},
+      {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
+      {"lamps", compiled.product.native ? compiled.product.native->lamps.size() : 0},
+      {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
   if (!r.levels.empty()) {
     nlohmann::ordered_json& levels = json["levels"] = nlohmann::ordered_json::array();
     for (const ToldLevels& of : r.levels) levels.push_back({{"part", of.part}, {"triangles", of.triangles}, {"error", of.error}});
@@ -435,8 +472,14 @@ std::string report_json(const Compiled& compiled) {
   nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
   for (const DrawnCopy& c : compiled.product.copies) {
     if (c.shine != Shine::lit) continue;   // listed with its room
-    list.push_back({{"word", cover::to_string(c.word)}, {"bounces", c.bounces}, {"sheet", c.sheet}, {"mirrored", c.reversing}, {"weight", {c.tint.r, c.tint.g, c.tint.b}},
-                    {"distance", c.distance}, {"triangles", c.index_count / 3}, {"level", c.level}});
+    list.push_back({{"word", cover::to_string(c.word)},
+                    {"bounces", c.bounces},
+                    {"sheet", c.sheet},
+                    {"mirrored", c.reversing},
+                    {"weight", {c.tint.r, c.tint.g, c.tint.b}},
+                    {"distance", c.distance},
+                    {"triangles", c.index_count / 3},
+                    {"level", c.level}});
     if (c.storey != 0) list.back()["storey"] = c.storey;
     if (c.wedge) list.back()["wedge_deg"] = {degrees_of(c.wedge->from), degrees_of(c.wedge->to)};
   }

@@ -39,7 +39,8 @@ struct Report {
   bool curtains_dropped = false;      ///< a budget had no room for them
   double error_bound_px = 0;
   double weight_lost = 0;             ///< of paths that are cut off by bounces or weight, mean over the picture: what the tail stands for
-  double weight_merged = 0;           ///< the same of paths into copies left out for their size: what curtains stand for whatever the background
+  /// The same of paths into copies left out for their size: what curtains stand for whatever the background
+  double weight_merged = 0;
   double tolerance_px = 0;            ///< of bending and of levels: what was asked for, or what a budget allowed
   int longest_word = 0;
   std::vector<ToldLevels> levels;     ///< of the parts that have some
@@ -53,12 +54,14 @@ struct Compiled {
 };
 
 /// unfold → levels → atlas → plan → bend: the upper road of compiler/README.md.
-/// Makes:       the same product for any executor; with a budget at most so many triangles. Copies left out for their size in the picture (`min_pixels`, or a
-///              budget) are hidden by panels in the mirrors through which they are seen, in the colour expected there.
+/// Makes:       the same product for any executor; with a budget at most so many triangles. Copies left out for their size in the picture
+///              (`min_pixels`, or a budget) are hidden by panels in the mirrors through which they are seen, in the colour expected there.
 /// Diagnostics: those of cover, light and bend. Notes: driver.copies-left-out, driver.no-curtains.
-[[nodiscard]] Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress = {});
+[[nodiscard]] Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor,
+                                       const Progress& progress = {});
 
-/// What compiling would make, within 20 % (copies exactly), and whether it fits into the memory allowed. Goes as far as bending some of the copies.
+/// What compiling would make, within 20 % (copies exactly), and whether it fits into the memory allowed. Goes as far as bending some of the
+/// copies.
 [[nodiscard]] Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor = serial_executor());
 [[nodiscard]] std::string plan_json(const cover::Plan& plan);
 

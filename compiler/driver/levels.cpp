@@ -1,7 +1,7 @@
-// Level of detail. A part is simplified in the conformal chart around it (twice the disk: lengths at its middle are true), and each level is
-// held to the part itself: both surfaces are divided into pieces of length h as the geodesic triangles that they are, and each piece's corners
-// are looked up on the other surface. In the chart lengths differ from true ones by the factor 1 + κ|p|²/4, and a piece from the straight
-// triangle on its corners by at most |P''|h²/6, |P''| ≤ 3|z| = 3|p|/2 (part_net.cpp); both are added.
+// Level of detail. A part is simplified in the conformal chart around it (twice the disk: lengths at its middle are true), and each level
+// is held to the part itself: both surfaces are divided into pieces of length h as the geodesic triangles that they are, and each piece's
+// corners are looked up on the other surface. In the chart lengths differ from true ones by the factor 1 + κ|p|²/4, and a piece from the
+// straight triangle on its corners by at most |P''|h²/6, |P''| ≤ 3|z| = 3|p|/2 (part_net.cpp); both are added.
 #include "compiler/driver/levels.h"
 
 #include <algorithm>
@@ -33,15 +33,19 @@ constexpr double kWhole = std::numeric_limits<double>::infinity();
 /// The conformal chart around a part.
 class Chart {
  public:
-  Chart(Space space, const bend::Extent& extent) : space_(space), chart_from_room_(inverse(geometry::translation_to(space, extent.centre))) {
+  Chart(Space space, const bend::Extent& extent)
+      : space_(space), chart_from_room_(inverse(geometry::translation_to(space, extent.centre))) {
     reach_ = space == Space::euclidean ? extent.radius : 2 * geometry::tan_k(space, extent.radius / 2);
   }
   [[nodiscard]] Vector3 operator()(const geometry::Ambient& v, double z) const {
-    const auto p = (space_ == Space::euclidean ? 1.0 : 2.0) * geometry::disk_from_point(space_, chart_from_room_ * geometry::normalised_point(space_, v));
+    const auto p = (space_ == Space::euclidean ? 1.0 : 2.0) *
+                   geometry::disk_from_point(space_, chart_from_room_ * geometry::normalised_point(space_, v));
     return {p.real(), p.imag(), z};
   }
   /// Intrinsic length of what is `length` long in the chart, at most.
-  [[nodiscard]] double true_length(double length) const { return space_ == Space::hyperbolic ? length / (1 - reach_ * reach_ / 4) : length; }
+  [[nodiscard]] double true_length(double length) const {
+    return space_ == Space::hyperbolic ? length / (1 - reach_ * reach_ / 4) : length;
+  }
   /// How far a geodesic piece of length h is from straight.
   [[nodiscard]] double sag(double h) const { return space_ == Space::euclidean ? 0 : reach_ * h * h / 4; }
   [[nodiscard]] double reach() const { return reach_; }
@@ -60,7 +64,8 @@ struct Pieces {
 /// Divides triangles and lines of a part into pieces no longer than h.
 class Divider {
  public:
-  Divider(const PlacedMesh& part, const std::vector<Vector3>& at, const Chart& chart, double h) : part_(part), at_(at), chart_(chart), h_(h) {}
+  Divider(const PlacedMesh& part, const std::vector<Vector3>& at, const Chart& chart, double h)
+      : part_(part), at_(at), chart_(chart), h_(h) {}
 
   void add(const mesh::Triangle& t, mesh::Mesh& into) const {
     const int n = count(t);
@@ -94,7 +99,8 @@ class Divider {
   }
   [[nodiscard]] Vector3 point(const mesh::Triangle& t, double b1, double b2) const {
     const double b0 = 1 - b1 - b2;
-    return chart_(b0 * part_.floor[t[0]] + b1 * part_.floor[t[1]] + b2 * part_.floor[t[2]], b0 * part_.z[t[0]] + b1 * part_.z[t[1]] + b2 * part_.z[t[2]]);
+    return chart_(b0 * part_.floor[t[0]] + b1 * part_.floor[t[1]] + b2 * part_.floor[t[2]],
+                  b0 * part_.z[t[0]] + b1 * part_.z[t[1]] + b2 * part_.z[t[2]]);
   }
 
   const PlacedMesh& part_;
@@ -116,7 +122,8 @@ std::vector<std::array<std::uint32_t, 2>> borders_of(const PlacedMesh& part, con
       const auto a = weld[part.triangles[i][k]], b = weld[part.triangles[i][(k + 1) % 3]];
       sides.push_back({std::min(a, b), std::max(a, b), part.look[i]});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) { return std::tie(p.a, p.b, p.look) < std::tie(q.a, q.b, q.look); });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& p, const Side& q) { return std::tie(p.a, p.b, p.look) < std::tie(q.a, q.b, q.look); });
   std::vector<std::array<std::uint32_t, 2>> borders;
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     for (end = i; end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b;) ++end;
@@ -134,7 +141,8 @@ Pieces pieces_of(const PlacedMesh& part, const std::vector<Vector3>& at, const C
   return pieces;
 }
 
-/// The largest distance of a corner of `from` to the other, at least `worst`. A corner is no farther than the one before and the way between.
+/// The largest distance of a corner of `from` to the other, at least `worst`. A corner is no farther than the one before and the way
+/// between.
 double farthest(const mesh::Mesh& from, const mesh::Nearest& to, double worst) {
   double last = 1e9;
   const Vector3* before = nullptr;
@@ -183,7 +191,8 @@ std::vector<Level> levels_of(Space space, const PlacedMesh& part, const Executor
   for (const std::uint16_t look : part.look)
     flat.material.push_back(static_cast<std::uint8_t>(std::lower_bound(looks.begin(), looks.end(), look) - looks.begin()));
   std::vector<std::size_t> numbers;
-  for (double n = kStep * static_cast<double>(part.triangles.size()); n >= kLightest; n *= kStep) numbers.push_back(static_cast<std::size_t>(n));
+  for (double n = kStep * static_cast<double>(part.triangles.size()); n >= kLightest; n *= kStep)
+    numbers.push_back(static_cast<std::size_t>(n));
   double area = 0;
   for (const auto& t : flat.triangles)
     area += length(cross(flat.positions[t[1]] - flat.positions[t[0]], flat.positions[t[2]] - flat.positions[t[0]])) / 2;
@@ -205,7 +214,8 @@ std::vector<Level> levels_of(Space space, const PlacedMesh& part, const Executor
     Level& level = levels[i];
     level.mesh = stand_in(part, chain[i], looks);
     const Pieces coarse = pieces_of(level.mesh, chain[i].mesh.positions, chart, h);
-    const double off = std::max(largest_distance(given.surface, *to_surface, coarse.surface), largest_distance(given.lines, *to_lines, coarse.lines));
+    const double off =
+        std::max(largest_distance(given.surface, *to_surface, coarse.surface), largest_distance(given.lines, *to_lines, coarse.lines));
     level.error = chart.true_length(off + 2 * chart.sag(h));
   });
   // A coarser level is never better.

@@ -12,7 +12,8 @@ namespace orbc::driver {
 /// A coarser stand-in of a part of the room. Its vertices are vertices of the part.
 struct Level {
   place::PlacedMesh mesh;
-  double error = 0;   ///< largest distance found between the two surfaces, both ways, and between their borders and the borders of their looks: intrinsic length
+  /// Largest distance found between the two surfaces, both ways, and between their borders and the borders of their looks: intrinsic length
+  double error = 0;
 };
 
 /// Stand-ins per part, coarser and coarser; none of parts that are light already, and of those with pictures, which would be shifted.
@@ -31,12 +32,13 @@ struct Choice {
 };
 
 /// For each copy and part the coarsest level that is displaced by at most the tolerance of `options`.
-[[nodiscard]] Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const std::vector<cover::Copy>& copies, const place::Eye& eye,
-                                   const bend::BendOptions& options);
+[[nodiscard]] Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const std::vector<cover::Copy>& copies,
+                                   const place::Eye& eye, const bend::BendOptions& options);
 /// Every copy whole.
 [[nodiscard]] Choice no_levels(const place::PlacedRoom& room, std::size_t copies);
 
-/// A stand-in of the room for questions about all of it at once: each part at its coarsest level within `error` (intrinsic length), without pictures.
+/// A stand-in of the room for questions about all of it at once: each part at its coarsest level within `error` (intrinsic length), without
+/// pictures.
 [[nodiscard]] place::PlacedRoom rough(const place::PlacedRoom& room, const Levels& levels, double error);
 
 /// What a choice comes to, before bending.

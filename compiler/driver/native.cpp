@@ -1,5 +1,5 @@
-// Unfolding makes a lamp of every image: a copy with the word g shows the room's light times w(g), and what comes to it over mirrors h comes
-// straight from the image of the lamp in g·h, times w(h). So every copy has lamps of its own, and no other copy's lamps may light it.
+// Unfolding makes a lamp of every image: a copy with the word g shows the room's light times w(g), and what comes to it over mirrors h
+// comes straight from the image of the lamp in g·h, times w(h). So every copy has lamps of its own, and no other copy's lamps may light it.
 #include "compiler/driver/native.h"
 
 #include <fmt/format.h>
@@ -108,12 +108,16 @@ std::string why_approximate(const Opened& opened, bool mirrors_alike) {
   const scene::Scene& scene = opened.scene;
   const place::PlacedRoom& room = *opened.room;
   std::vector<std::string> why;
-  if (room.room.space != Space::euclidean) why.push_back(fmt::format("light follows curves in {} rooms, but straight lines in renderers", name(room.room.space)));
+  if (room.room.space != Space::euclidean)
+    why.push_back(fmt::format("light follows curves in {} rooms, but straight lines in renderers", name(room.room.space)));
   if (!mirrors_alike) why.push_back("mirrors that are not all alike give light their mean weight");
   if (cover::needs_beams(room)) why.push_back("copies are cut to what the eye sees of them, and so are their shadows");
-  if (std::any_of(scene.lamps.begin(), scene.lamps.end(), [](const scene::Lamp& l) { return l.kind == LampKind::tube; })) why.push_back("tubes shine alike to all sides");
+  if (std::any_of(scene.lamps.begin(), scene.lamps.end(), [](const scene::Lamp& l) { return l.kind == LampKind::tube; }))
+    why.push_back("tubes shine alike to all sides");
   if (scene.integrator == scene::Integrator::path) why.push_back("what surfaces pass on to each other is left out");
-  const auto shiny = [](const place::Look& look) { return look.material.kind != MaterialKind::matte && look.material.kind != MaterialKind::emissive; };
+  const auto shiny = [](const place::Look& look) {
+    return look.material.kind != MaterialKind::matte && look.material.kind != MaterialKind::emissive;
+  };
   if (std::any_of(room.looks.begin(), room.looks.end(), shiny)) why.push_back("all surfaces are matte");
   return fmt::format("{}", fmt::join(why, "; "));
 }
@@ -166,11 +170,13 @@ Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy
   const auto found = light::lamp_images(hung->lamps, room, {options.bounces, opened.scene.exposure, options.cut});
   if (!found) return located(found.error(), opened.scene.bake.mirrors_span);
   const std::vector<light::LampImage>& images = *found;
-  const auto lit = static_cast<std::size_t>(std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit; }));
+  const auto lit = static_cast<std::size_t>(
+      std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit; }));
   if (lit * images.size() > kMaxNativeLamps) {
     return {make_error("driver.too-many-lamps",
-                      fmt::format("{} copies with {} images of lamps each are more lamps than the {} that a renderer is given", lit, images.size(), kMaxNativeLamps),
-                      "lower bake.mirrors or cover.max_bounces, or let the light be baked (`lights: baked`)", opened.scene.span)};
+                       fmt::format("{} copies with {} images of lamps each are more lamps than the {} that a renderer is given", lit,
+                                   images.size(), kMaxNativeLamps),
+                       "lower bake.mirrors or cover.max_bounces, or let the light be baked (`lights: baked`)", opened.scene.span)};
   }
   const MirrorWeight mirror = weight_of(room);
   const double pi = std::numbers::pi;
@@ -180,7 +186,8 @@ Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy
   for (const light::LampImage& image : images) shapes.push_back(shape_of(space, hung->lamps[static_cast<std::size_t>(image.lamp)], image));
   for (std::size_t c = 0; c < product.copies.size(); ++c) {
     if (product.copies[c].shine != Shine::lit) continue;
-    const IntoCopy into{{space, geometry::matrix(geometry::inverse(opened.eye.room_from_eye) * copies[c].cover_from_room), copies[c].sheet}, copies[c].storey};
+    const IntoCopy into{{space, geometry::matrix(geometry::inverse(opened.eye.room_from_eye) * copies[c].cover_from_room), copies[c].sheet},
+                        copies[c].storey};
     for (std::size_t i = 0; i < images.size(); ++i) {
       const light::HungLamp& lamp = hung->lamps[static_cast<std::size_t>(images[i].lamp)];
       NativeLamp made = lamp_in(into, lamp, shapes[i]);
@@ -196,7 +203,8 @@ Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy
   add_normals(product, executor);
   Diagnostics notes;
   if (const std::string why = why_approximate(opened, mirror.alike); !why.empty())
-    notes.push_back(make_warning("driver.native-lights-approximate", "native light is not the tracer's here: " + why, "bake it (`lights: baked`) where that matters", opened.scene.span));
+    notes.push_back(make_warning("driver.native-lights-approximate", "native light is not the tracer's here: " + why,
+                                 "bake it (`lights: baked`) where that matters", opened.scene.span));
   return notes;
 }
 

@@ -12,14 +12,15 @@ namespace orbc::driver {
 /// How the triangles of a part of the twin shine. In: a part whose looks all glow, or none.
 [[nodiscard]] Shine shine_of(const place::PlacedRoom& room, const place::PlacedMesh& part);
 
-/// Hangs the lamps of a scene into its product: for every copy the images of the room's lamps that light reaches it from over `bake.mirrors`
-/// mirrors, with their weights; and gives it normals.
+/// Hangs the lamps of a scene into its product: for every copy the images of the room's lamps that light reaches it from over
+/// `bake.mirrors` mirrors, with their weights; and gives it normals.
 /// Exact:       in E² with mirrors that are all alike, if a renderer lights each copy with its own lamps alone and lets everything cast
 ///              shadows; point, sphere, disk, rectangle and spot. Elsewhere lamps hang where the eye sees them.
 /// In:          the product of the twin; copies as they were drawn.
 /// Makes:       what its author should know, errors if it could not be done.
 /// Diagnostics: driver.too-many-lamps; as a warning driver.native-lights-approximate.
-[[nodiscard]] Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy>& copies, Product& product, const Executor& executor);
+[[nodiscard]] Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy>& copies, Product& product,
+                                           const Executor& executor);
 
 /// The most images of lamps that a product may have.
 inline constexpr std::size_t kMaxNativeLamps = 20'000;

@@ -31,8 +31,10 @@ struct Opened {
   std::unique_ptr<place::PlacedRoom> room;  ///< keeps its place in memory: the tracer refers to it
   place::Eye eye;
   Diagnostics notes;
-  bool expected_background = false;         ///< where paths are cut off one sees what is expected beyond (tail.h), times their weight, not `cover.background`
-  mutable std::shared_ptr<const Prepared> prepared;   ///< filled when it is first asked for (prepared.h); opened scenes of another room start without
+  /// Where paths are cut off one sees what is expected beyond (tail.h), times their weight, not `cover.background`
+  bool expected_background = false;
+  /// Filled when it is first asked for (prepared.h); opened scenes of another room start without
+  mutable std::shared_ptr<const Prepared> prepared;
 };
 
 /// read → realise → furnish → eye. In: a path, or "-" for standard input.

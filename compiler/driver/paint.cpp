@@ -16,7 +16,8 @@ light::LightField dark(const scene::Scene& scene) {
 
 // Plain colours are what lit ones are without light: seen at the scene's exposure, and times its emission where something glows.
 place::PlacedRoom exposed(place::PlacedRoom room, double exposure) {
-  for (place::Look& look : room.looks) look.color = (exposure * (look.material.kind == scene::MaterialKind::emissive ? look.material.emission : 1)) * look.color;
+  for (place::Look& look : room.looks)
+    look.color = (exposure * (look.material.kind == scene::MaterialKind::emissive ? look.material.emission : 1)) * look.color;
   return room;
 }
 

@@ -8,7 +8,8 @@
 namespace orbc::driver {
 
 struct PaintOptions {
-  bool highlights = true;  ///< of glossy and metal surfaces, and what is seen in mirror and glass objects, for this eye; false: diffuse light alone
+  /// Of glossy and metal surfaces, and what is seen in mirror and glass objects, for this eye; false: diffuse light alone
+  bool highlights = true;
   int max_side = 16384;    ///< pixels of the atlas
   bool deep = false;       ///< 16 bits a channel as well
   bool lit = true;         ///< false: only what triangles and vertices become of it, in plain colours

@@ -23,7 +23,8 @@ struct Looking {
 };
 
 // One sees the surface again from a step back towards the eye: the ray meets it as the eye's own does.
-orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry::Position& at, const orbc::trace::Direction& to_eye, double beside) {
+orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry::Position& at, const orbc::trace::Direction& to_eye,
+                            double beside) {
   const geometry::Space space = scene.prism.space;
   orbc::trace::Ray back = ray_from(space, at, to_eye);
   back.t_min = orbc::trace::kLeave;
@@ -37,8 +38,8 @@ orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry
 
 light::SeenIn see_in(const Opened& opened, const light::Baked* baked, const Executor& executor) {
   const Prepared& ready = prepared(opened, executor);
-  const auto looking = std::make_shared<Looking>(Looking{ready.scene, ready.light, draw_options(opened, ready.light, executor), std::nullopt,
-                                                         opened.scene.exposure});
+  const auto looking = std::make_shared<Looking>(
+      Looking{ready.scene, ready.light, draw_options(opened, ready.light, executor), std::nullopt, opened.scene.exposure});
   if (baked && ready.light.lit) looking->draw.baked = &looking->baked.emplace(*opened.room, *baked);
   return [looking](const geometry::Position& at, const orbc::trace::Direction& to_eye, const cover::Copy& copy, double beside) {
     orbc::trace::FollowOptions follow = render::follow_options(looking->draw);

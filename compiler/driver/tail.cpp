@@ -1,6 +1,7 @@
-// A path that ends at a mirror shows weight × T, T the colour expected beyond: in exports a panel of colour T in the mirror, which its copy multiplies by
-// its weight like everything else. Of what is cut off by bounces or weight both roads show the same T, and the sum over endless mirrors is closed instead of
-// cut. Copies left out for their size the tracer does see: there T stands for many small things, by the height at which one looks through the mirror.
+// A path that ends at a mirror shows weight × T, T the colour expected beyond: in exports a panel of colour T in the mirror, which its copy
+// multiplies by its weight like everything else. Of what is cut off by bounces or weight both roads show the same T, and the sum over
+// endless mirrors is closed instead of cut. Copies left out for their size the tracer does see: there T stands for many small things, by
+// the height at which one looks through the mirror.
 #include "compiler/driver/tail.h"
 
 #include <algorithm>
@@ -52,7 +53,8 @@ struct Row {
 class Missing {
  public:
   Missing(const place::PlacedRoom& room, const BeyondOptions& options) : room_(room), options_(options) {
-    for (std::size_t wall = 0; wall < room_.room.walls.size(); ++wall) mirrors_.push_back(room::reflection_in_wall(room_.room, static_cast<int>(wall)));
+    for (std::size_t wall = 0; wall < room_.room.walls.size(); ++wall)
+      mirrors_.push_back(room::reflection_in_wall(room_.room, static_cast<int>(wall)));
     const auto& corners = room_.room.orbifold.corners;
     const bool whole = std::all_of(corners.begin(), corners.end(), [](const Rational& k) { return denominator(k) == 1; });
     if (room_.room.space == geometry::Space::spherical && whole) half_turn_ = notation::longest_length(room_.room.orbifold).value_or(1);
@@ -93,11 +95,12 @@ LeftOut left_out_below(const Opened& opened, double budget_px) {
   if (!(spec.min_pixels > 0) && !(budget_px > 0)) return {};
   const place::PlacedRoom& room = *opened.room;
   const bend::Extent whole{{}, room.room.circumradius, 0, room.height};
-  return [spec, budget_px, whole, size = cover::CopySize(room, opened.eye), detail = bend::Detail(opened.eye, {})](const cover::Copy& copy) {
-    if (copy.bounces == 0) return false;
-    if (spec.min_pixels > 0 && cover::too_small(size.of(copy.cover_from_room), spec, kSlack)) return true;
-    return budget_px > 0 && detail.smaller_side_px(copy, whole) < budget_px * (1 + kSlack);
-  };
+  return
+      [spec, budget_px, whole, size = cover::CopySize(room, opened.eye), detail = bend::Detail(opened.eye, {})](const cover::Copy& copy) {
+        if (copy.bounces == 0) return false;
+        if (spec.min_pixels > 0 && cover::too_small(size.of(copy.cover_from_room), spec, kSlack)) return true;
+        return budget_px > 0 && detail.smaller_side_px(copy, whole) < budget_px * (1 + kSlack);
+      };
 }
 
 namespace {
@@ -106,7 +109,11 @@ namespace {
 class Looker {
  public:
   Looker(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor)
-      : opened_(opened), options_(options), executor_(executor), scene_(&room == opened.room.get() ? prepared(opened, executor).scene : orbc::trace::prepare(room, executor)), missing_(room, options) {
+      : opened_(opened),
+        options_(options),
+        executor_(executor),
+        scene_(&room == opened.room.get() ? prepared(opened, executor).scene : orbc::trace::prepare(room, executor)),
+        missing_(room, options) {
     const scene::CoverSpec& spec = opened.scene.cover;
     if (options.color || options.left_out) {
       light_ = prepared(opened, executor).light;   // in: the opened room
@@ -161,7 +168,9 @@ class Looker {
     executor_(rows.size(), [&](std::size_t j) {
       rows[j].bands.resize(options_.bands.size() + 1);
       for (int i = 0; i < columns; ++i)
-        look(render::eye_ray(opened_.eye, (i + 0.5) * opened_.eye.width / columns, (static_cast<double>(j) + 0.5) * opened_.eye.height / lines), rows[j]);
+        look(render::eye_ray(opened_.eye, (i + 0.5) * opened_.eye.width / columns,
+                             (static_cast<double>(j) + 0.5) * opened_.eye.height / lines),
+             rows[j]);
     });
     return rows;
   }
@@ -219,8 +228,8 @@ std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& ey
 namespace {
 
 /// A panel on a wall: columns of pieces, since walls may be long and long triangles are split into many, and rows of bands.
-place::PlacedMesh wall_panel(const place::PlacedRoom& room, const place::PlacedMirror& mirror, double bottom, double top, std::uint16_t first_look,
-                             const std::vector<double>& bands, bool flat) {
+place::PlacedMesh wall_panel(const place::PlacedRoom& room, const place::PlacedMirror& mirror, double bottom, double top,
+                             std::uint16_t first_look, const std::vector<double>& bands, bool flat) {
   place::PlacedMesh panel;
   panel.kind = place::PartKind::wall, panel.wall = mirror.wall;
   std::vector<double> heights{bottom};
@@ -252,14 +261,16 @@ place::PlacedMesh level_panel(const place::PlacedRoom& room, bool floor, std::ui
   panel.floor.emplace_back();
   panel.z.assign(panel.floor.size(), floor ? 0 : room.height);
   const auto n = static_cast<std::uint32_t>(room.room.outline.size());
-  for (std::uint32_t k = 0; k < n; ++k) panel.triangles.push_back(floor ? mesh::Triangle{n, k, (k + 1) % n} : mesh::Triangle{n, (k + 1) % n, k});
+  for (std::uint32_t k = 0; k < n; ++k)
+    panel.triangles.push_back(floor ? mesh::Triangle{n, k, (k + 1) % n} : mesh::Triangle{n, (k + 1) % n, k});
   panel.look.assign(panel.triangles.size(), look);
   return panel;
 }
 
 }  // namespace
 
-std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands, bool flat) {
+std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands,
+                                        bool flat) {
   std::vector<place::PlacedMesh> panels;
   const bool stacked = std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; });
   for (const place::PlacedMirror& mirror : room.mirrors) {
@@ -281,7 +292,8 @@ bool may_be_flat(const place::PlacedRoom& room, double pixels) {
   return room.room.space != geometry::Space::spherical && pixels <= kMost;
 }
 
-CutOffs::CutOffs(const place::PlacedRoom& room, const scene::CoverSpec& spec, LeftOut left_out) : room_(room), spec_(spec), left_out_(std::move(left_out)) {
+CutOffs::CutOffs(const place::PlacedRoom& room, const scene::CoverSpec& spec, LeftOut left_out)
+    : room_(room), spec_(spec), left_out_(std::move(left_out)) {
   for (const place::PlacedMirror& mirror : room.mirrors)
     behind_.push_back(mirror.wall < 0 ? geometry::identity(room.room.space) : room::reflection_in_wall(room.room, mirror.wall));
 }
@@ -309,8 +321,8 @@ std::vector<CutOff> CutOffs::of(const cover::Copy& copy) const {
   return ends;
 }
 
-std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copies, const Curtains& curtains, std::vector<bend::Model>& models,
-                   std::vector<std::uint32_t>& model_of_copy) {
+std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copies, const Curtains& curtains,
+                   std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
   std::uint64_t hung = 0;
   std::map<std::pair<std::uint32_t, std::vector<CutOff>>, std::uint32_t> known;
   for (std::size_t i = 0; i < copies.size(); ++i) {

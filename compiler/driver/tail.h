@@ -12,8 +12,8 @@ namespace orbc::driver {
 /// Whether a copy is left out of the product for its size in the picture, though a path may lead there. None: no copy is.
 using LeftOut = std::function<bool(const cover::Copy&)>;
 
-/// Copies smaller than the scene's `min_pixels` (cover/size.h), or than `budget_px` by bend::Detail::smaller_side_px: what a budget leaves out.
-/// Just large enough counts as too small, so that rounding opens no hole.
+/// Copies smaller than the scene's `min_pixels` (cover/size.h), or than `budget_px` by bend::Detail::smaller_side_px: what a budget leaves
+/// out. Just large enough counts as too small, so that rounding opens no hole.
 [[nodiscard]] LeftOut left_out_below(const Opened& opened, double budget_px);
 
 struct BeyondOptions {
@@ -27,27 +27,32 @@ struct Beyond {
   double weight_lost = 0;      ///< of paths that are cut off by bounces or weight: largest channel, mean over the picture
   double weight_merged = 0;    ///< the same of paths that lead into copies left out for their size
   scene::Color color;          ///< radiance that is expected where paths are cut off; the scene's background where none is
-  /// Radiance that copies left out bring, as they are seen through each band of a mirror, from the floor up. Nothing: mostly the background itself is seen
-  /// there, where paths are cut off, and brighter than a panel could be: it stays open.
+  /// Radiance that copies left out bring, as they are seen through each band of a mirror, from the floor up. Nothing: mostly the background
+  /// itself is seen there, where paths are cut off, and brighter than a panel could be: it stays open.
   std::vector<std::optional<scene::Color>> by_height;
 };
 
-/// Looks beyond the mirrors at which an export ends: follows a fixed grid of rays of the picture through the real mirrors, those that are cut off much deeper.
-/// Makes: color = Σ (radiance the paths bring to the eye) / Σ (their weights at that mirror), channel by channel: with it in place of what is cut off the
-///        grid's mean is right. The same for any executor. What only the weight is asked of may be a coarser stand-in of the room.
+/// Looks beyond the mirrors at which an export ends: follows a fixed grid of rays of the picture through the real mirrors, those that are
+/// cut off much deeper.
+/// Makes: color = Σ (radiance the paths bring to the eye) / Σ (their weights at that mirror), channel by channel: with it in place of what
+///        is cut off the grid's mean is right. The same for any executor. What only the weight is asked of may be a coarser stand-in of the
+///        room.
 /// Error: that of the grid; light that surfaces pass on to each other is left out.
-[[nodiscard]] Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor);
+[[nodiscard]] Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options,
+                                 const Executor& executor);
 
-/// A panel in each mirror (parallel to the room's): what is drawn where nothing lies behind it. Each band of heights between `bands` has a look of its
-/// own: first_look, first_look + 1, … from the floor up. `flat`: of as few triangles as that takes, to be drawn without splits.
-[[nodiscard]] std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands = {},
-                                                      bool flat = false);
+/// A panel in each mirror (parallel to the room's): what is drawn where nothing lies behind it. Each band of heights between `bands` has a
+/// look of its own: first_look, first_look + 1, … from the floor up. `flat`: of as few triangles as that takes, to be drawn without splits.
+[[nodiscard]] std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look,
+                                                      const std::vector<double>& bands = {}, bool flat = false);
 
-/// Whether panels that hide copies of so many pixels may be flat. Seen from the eye a flat panel fills the same bearings as the wall, whose image bulges
-/// towards the eye, and nothing else lies there: only the edge of the floor before it does not end at it, which it hides by reaching into the floor.
+/// Whether panels that hide copies of so many pixels may be flat. Seen from the eye a flat panel fills the same bearings as the wall, whose
+/// image bulges towards the eye, and nothing else lies there: only the edge of the floor before it does not end at it, which it hides by
+/// reaching into the floor.
 [[nodiscard]] bool may_be_flat(const place::PlacedRoom& room, double pixels);
 
-/// Where panels get another colour: what one sees above the height of the eye goes up, what one sees below it goes down. None in a room of storeys.
+/// Where panels get another colour: what one sees above the height of the eye goes up, what one sees below it goes down. None in a room of
+/// storeys.
 [[nodiscard]] std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& eye);
 
 /// How what is seen in a mirror of a copy ends there.
@@ -76,7 +81,7 @@ struct Curtains {
 };
 
 /// Adds panels to the models of the copies that need them. Makes: how many are hung; copies that need the same share a model.
-std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copies, const Curtains& curtains, std::vector<bend::Model>& models,
-                   std::vector<std::uint32_t>& model_of_copy);
+std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copies, const Curtains& curtains,
+                   std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy);
 
 }  // namespace orbc::driver

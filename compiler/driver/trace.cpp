@@ -18,7 +18,8 @@ render::DrawOptions draw_options(const Opened& opened, const light::LightField& 
   draw.background = opened.scene.cover.background;
   // The film is exposed as a whole; the background is shown as it is.
   if (light.exposure > 0) draw.background = (1 / light.exposure) * draw.background, draw.white = 1 / light.exposure;
-  if (opened.expected_background) draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color, draw.weighs_background = true;
+  if (opened.expected_background)
+    draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color, draw.weighs_background = true;
   return draw;
 }
 

@@ -14,6 +14,7 @@ struct TraceOptions {
 [[nodiscard]] render::DrawOptions draw_options(const Opened& opened, const light::LightField& light, const Executor& executor);
 
 /// prepare → draw: the lower road of compiler/README.md. Makes the same film for any executor.
-[[nodiscard]] render::Film trace(const Opened& opened, const TraceOptions& options, const Executor& executor, const Progress& progress = {});
+[[nodiscard]] render::Film trace(const Opened& opened, const TraceOptions& options, const Executor& executor,
+                                 const Progress& progress = {});
 
 }  // namespace orbc::driver

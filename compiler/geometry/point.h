@@ -47,10 +47,12 @@ struct Vector3 {
 
 /// The ambient vector scaled back onto the surface. Undefined for vectors that are not time-like (H²) or have w = 0 (E²).
 [[nodiscard]] Point normalised_point(Space space, const Ambient& vector);
-/// The tangent at P nearest to `vector`: orthogonal to P and of length 1; cancels the drift of long walks. Source: performance study, pitfalls.
+/// The tangent at P nearest to `vector`: orthogonal to P and of length 1; cancels the drift of long walks. Source: performance study,
+/// pitfalls.
 [[nodiscard]] Tangent normalised_tangent(Space space, const Point& at, const Ambient& vector);
 
-/// Intrinsic distance. Error: a few ulp of the stored coordinates; in H² absolute error grows like e^r with the distance r of the points from the origin.
+/// Intrinsic distance. Error: a few ulp of the stored coordinates; in H² absolute error grows like e^r with the distance r of the points
+/// from the origin.
 [[nodiscard]] double distance(Space space, const Point& p, const Point& q);
 
 /// The point reached after arc length s from P in the unit direction V: cosκ(s)·P + sinκ(s)·V. Source: design §2.

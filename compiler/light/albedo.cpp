@@ -80,7 +80,8 @@ double solid_pattern(Pattern pattern, const Vector3& at, double cell) {
 }
 
 bool has_solid(const place::PlacedMesh& part) {
-  return !part.pattern_position.empty() || part.kind == place::PartKind::floor || part.kind == place::PartKind::ceiling || part.kind == place::PartKind::wall;
+  return !part.pattern_position.empty() || part.kind == place::PartKind::floor || part.kind == place::PartKind::ceiling ||
+         part.kind == place::PartKind::wall;
 }
 
 Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
@@ -88,7 +89,8 @@ Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
   return {z.real(), z.imag(), at.z};
 }
 
-void set_solid(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at, const Vector3& own, SurfaceKey& key) {
+void set_solid(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at, const Vector3& own,
+               SurfaceKey& key) {
   key.solid = has_solid(part);
   if (!key.solid) return;
   key.pattern_position = part.pattern_position.empty() ? shell_position(room.room.space, at) : own;

@@ -14,19 +14,22 @@ struct SurfaceKey {
   geometry::Vector3 pattern_position;     ///< the object's own coordinates, or the shell's
 };
 
-/// Whether the solid patterns have a meaning on a part: objects carry their own coordinates, floor, ceiling and walls are cut from one solid.
+/// Whether the solid patterns have a meaning on a part: objects carry their own coordinates, floor, ceiling and walls are cut from one
+/// solid.
 [[nodiscard]] bool has_solid(const place::PlacedMesh& part);
-/// Where a point of floor, ceiling or a wall lies in that solid: the disk chart's coordinates at true size in the centre (E²: its own), and the
-/// height. The same point of a wall gets the same stone from both roads, whatever triangle it is in.
+/// Where a point of floor, ceiling or a wall lies in that solid: the disk chart's coordinates at true size in the centre (E²: its own), and
+/// the height. The same point of a wall gets the same stone from both roads, whatever triangle it is in.
 [[nodiscard]] geometry::Vector3 shell_position(geometry::Space space, const geometry::Position& at);
 /// Fills in what solid patterns need. In: the point, and the part's own coordinates there, if it has any.
-void set_solid(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at, const geometry::Vector3& own, SurfaceKey& key);
+void set_solid(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at, const geometry::Vector3& own,
+               SurfaceKey& key);
 
 /// The colour of a surface point without any light: flat, texel (nearest) times colour, or solid pattern. One function for both roads.
 [[nodiscard]] scene::Color surface_albedo(const place::PlacedRoom& room, const SurfaceKey& key);
 
 /// The same at affine barycentric coordinates of a triangle, its textures' uv in [0, 1]².
-[[nodiscard]] scene::Color triangle_albedo(const place::PlacedRoom& room, const place::PlacedMesh& part, std::size_t triangle, const std::array<double, 3>& b);
+[[nodiscard]] scene::Color triangle_albedo(const place::PlacedRoom& room, const place::PlacedMesh& part, std::size_t triangle,
+                                           const std::array<double, 3>& b);
 
 /// Whether the colour changes inside triangles of this look: by a texture, or, on a part where they mean something, by a solid pattern.
 [[nodiscard]] bool varies(const place::PlacedRoom& room, int look, bool solid);

@@ -118,7 +118,8 @@ bool pack(Layout& layout, int max_side) {
 Texel texel_of(const mesh::Image& image, const Cell& cell, const std::array<std::array<std::uint8_t, 256>, 3>& tint, int x, int y) {
   const auto wrap = [&cell](int i, int n) { return cell.tiles ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); };
   const std::size_t at = 4 * (static_cast<std::size_t>(wrap(y, image.height)) * image.width + wrap(x, image.width));
-  return {tint[0][image.rgba[at]], tint[1][image.rgba[at + 1]], tint[2][image.rgba[at + 2]], static_cast<std::uint8_t>(image.rgba[at + 3] < cell.cutoff * 255 ? 0 : 255)};
+  return {tint[0][image.rgba[at]], tint[1][image.rgba[at + 1]], tint[2][image.rgba[at + 2]],
+          static_cast<std::uint8_t>(image.rgba[at + 3] < cell.cutoff * 255 ? 0 : 255)};
 }
 
 void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
@@ -137,7 +138,8 @@ void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
 void draw(const place::PlacedRoom& room, const Cell& cell, mesh::DeepImage& deep) {
   std::array<std::array<std::uint16_t, 256>, 3> tint;
   for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 256; ++i) tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint16_t>(257 * i) : deeply_encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
+    for (int i = 0; i < 256; ++i)
+      tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint16_t>(257 * i) : deeply_encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
   std::array<std::array<std::uint8_t, 256>, 3> same;
   for (auto& channel : same) std::iota(channel.begin(), channel.end(), std::uint8_t{0});
   for (int y = 0; y < cell.height; ++y)

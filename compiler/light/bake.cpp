@@ -1,8 +1,7 @@
 // Light changes slowly except at shadow borders, so it is asked where it changes: adaptive sampling of each block (Whitted, An improved
-// illumination model for
-// shaded display, 1980, §4, on grids instead of pixels). Vertices are lit once and shared by all blocks that meet there. What is
-// interpolated is irradiance, in
-// linear light; what is compared is the encoded picture. Textures and solid patterns are then looked up texel by texel.
+// illumination model for shaded display, 1980, §4, on grids instead of pixels). Vertices are lit once and shared by all blocks that meet
+// there. What is interpolated is irradiance, in linear light; what is compared is the encoded picture. Textures and solid patterns are then
+// looked up texel by texel.
 #include "compiler/light/bake.h"
 
 #include <fmt/format.h>
@@ -72,7 +71,8 @@ class BlockBaker {
   /// Irradiance from lamps, as finely as it asks for.
   LightGrid light() {
     const int a0 = level_of(block_.length_u * part_.options.coarse), b0 = level_of(block_.length_v * part_.options.coarse);
-    const int a = std::max(a0, level_of(block_.length_u * part_.options.fine)), b = std::max(b0, level_of(block_.length_v * part_.options.fine));
+    const int a = std::max(a0, level_of(block_.length_u * part_.options.fine)),
+              b = std::max(b0, level_of(block_.length_v * part_.options.fine));
     grid_.w = (1 << a) + 1, grid_.h = (1 << b) + 1;
     grid_.light.resize(static_cast<std::size_t>(grid_.w) * grid_.h);
     grid_.rough.assign(grid_.light.size(), 0);
@@ -167,7 +167,8 @@ class BlockBaker {
     double radius = 0;
     for (int k = 0; k < 6; ++k) {
       if (k > 2 && block_.second < 0) break;
-      const std::uint32_t v = part_.mesh.triangles[k < 3 ? block_.first : static_cast<std::size_t>(block_.second)][static_cast<std::size_t>(k % 3)];
+      const std::uint32_t v =
+          part_.mesh.triangles[k < 3 ? block_.first : static_cast<std::size_t>(block_.second)][static_cast<std::size_t>(k % 3)];
       radius = std::max(radius, std::hypot(geometry::distance(space, centre.floor, part_.mesh.floor[v]), part_.mesh.z[v] - centre.z));
     }
     return images_near(part_.field, centre, 1.2 * radius);
@@ -273,7 +274,8 @@ class BlockBaker {
           const Color& c = grid_.light[index(i * step_u, j * step_v)];
           to = {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
         } else {
-          for (std::size_t k = 0; k < 3; ++k) to[k] = std::max(0.0f, thin.point(i - 1, j)[k] + thin.point(i, j - 1)[k] - thin.point(i - 1, j - 1)[k]);
+          for (std::size_t k = 0; k < 3; ++k)
+            to[k] = std::max(0.0f, thin.point(i - 1, j)[k] + thin.point(i, j - 1)[k] - thin.point(i - 1, j - 1)[k]);
         }
       }
     return thin;
@@ -365,10 +367,11 @@ Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vecto
     for (std::size_t i = 0; i < blocks[p].size(); ++i, ++at) texels += finished[at].texels.size();
     if (texels > most) most = texels, worst = p;
   }
-  return make_error("light.atlas-too-large",
-                    fmt::format("the baked light of this scene does not fit into a picture of {0}×{0} pixels", max_side),
-                    fmt::format("most of it, {} texels, is on \"{}\": a simpler mesh there, larger lamps with softer shadows, or --quality draft need less",
-                                most, room.parts[worst].name));
+  return make_error(
+      "light.atlas-too-large", fmt::format("the baked light of this scene does not fit into a picture of {0}×{0} pixels", max_side),
+      fmt::format(
+          "most of it, {} texels, is on \"{}\": a simpler mesh there, larger lamps with softer shadows, or --quality draft need less", most,
+          room.parts[worst].name));
 }
 
 }  // namespace
@@ -465,8 +468,10 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
         std::copy(texel.begin(), texel.end(),
                   atlas.image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
         if (!options.deep) continue;
-        const auto& fine = finished[f].deep[static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x)];
-        std::copy(fine.begin(), fine.end(), atlas.deep.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
+        const auto& fine =
+            finished[f].deep[static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x)];
+        std::copy(fine.begin(), fine.end(),
+                  atlas.deep.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
       }
   }
   atlas.room = room;

@@ -38,19 +38,17 @@ struct BakeCounts {
 
 /// Bakes the light of a room into one picture.
 /// Makes:       for every two neighbouring triangles of one look (or a single one) a block of texels, a grid from corner to corner; texel
-///              centres lie on the corners,
-///              so bilinear lookup never leaves the block, and neighbours that share an edge agree on it. A single triangle's texels beyond
-///              its long side continue
-///              it: c₁ + c₂ − c₀, so that the lookup is linear up to the border. A grid is as fine as the light on it asks for: it starts
-///              coarse, and between points
-///              that differ, or near points that a mean would have missed, it is lit again at half the distance. Same bytes for any
-///              executor.
+///              centres lie on the corners, so bilinear lookup never leaves the block, and neighbours that share an edge agree on it. A
+///              single triangle's texels beyond its long side continue it: c₁ + c₂ − c₀, so that the lookup is linear up to the border. A
+///              grid is as fine as the light on it asks for: it starts coarse, and between points that differ, or near points that a mean
+///              would have missed, it is lit again at half the distance. Same bytes for any executor.
 /// In:          the field that prepare_light made for this room.
 /// Diagnostics: light.atlas-too-large; the hint names what makes it smaller.
 struct Baked {
   Atlas atlas;
   BakeCounts counts;
-  std::vector<std::vector<Block>> blocks;   ///< per part of the room; atlas.room has their vertices in this order: corners 00, 10, 01, of pairs 11
+  /// Per part of the room; atlas.room has their vertices in this order: corners 00, 10, 01, of pairs 11
+  std::vector<std::vector<Block>> blocks;
   std::vector<std::vector<Box>> boxes;      ///< parallel: where in the picture
 };
 [[nodiscard]] Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const BakeOptions& options,

@@ -34,7 +34,8 @@ struct InTriangle {
 [[nodiscard]] bool in_hole(const place::PlacedRoom& room, const Block& block, double u, double v);
 /// Whether the point (i, j) of a grid of w × h points from corner to corner lies on the block: a single triangle has only half of them.
 [[nodiscard]] inline bool on_block(const Block& block, int i, int j, int w, int h) {
-  return block.second >= 0 || static_cast<std::int64_t>(i) * (h - 1) + static_cast<std::int64_t>(j) * (w - 1) <= static_cast<std::int64_t>(w - 1) * (h - 1);
+  return block.second >= 0 ||
+         static_cast<std::int64_t>(i) * (h - 1) + static_cast<std::int64_t>(j) * (w - 1) <= static_cast<std::int64_t>(w - 1) * (h - 1);
 }
 
 /// A rectangle to be packed.

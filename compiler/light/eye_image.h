@@ -22,12 +22,15 @@ struct EyeImage {
 /// In: the sight from the point to the eye; pixels per radian.
 [[nodiscard]] double pixels_per_unit(const EyeImage& eye, const Way& sight, double per_radian);
 
-/// What one unit of length along `side` (any length) takes in the picture where it starts. In the map of the eye (the log map) lengths across
-/// the geodesic grow by arc/sinκ(arc), those along it and upright stay. Something of what the sight foreshortens is kept: the surface bends.
-[[nodiscard]] double pixels_along(const EyeImage& eye, const Way& sight, const geometry::Position& at, const trace::Direction& side, double per_radian);
+/// What one unit of length along `side` (any length) takes in the picture where it starts. In the map of the eye (the log map) lengths
+/// across the geodesic grow by arc/sinκ(arc), those along it and upright stay. Something of what the sight foreshortens is kept: the
+/// surface bends.
+[[nodiscard]] double pixels_along(const EyeImage& eye, const Way& sight, const geometry::Position& at, const trace::Direction& side,
+                                  double per_radian);
 
 /// Where the eye sees a point of a copy, in eye coordinates: the other end of the sight. Nothing: in all directions at once.
-[[nodiscard]] std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera, const geometry::Position& point);
+[[nodiscard]] std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera,
+                                                                  const geometry::Position& point);
 
 /// Whether all of something whose corners are seen in these directions surely lies beside the picture.
 [[nodiscard]] bool beside_picture(const place::Eye& camera, const std::vector<geometry::Vector3>& directions);

@@ -10,15 +10,12 @@ namespace orbc::light {
 
 /// How much of the power of a lamp that shines alike to all sides falls on a unit of area across the path, for power 1.
 /// In:      path length L > 0, its horizontal part s = L·cosα (α the slope), the lamp's radius.
-/// Formula: cosα/(4π·L·|sinκ(L·cosα)|).
-///          Why: the directions at the lamp with slope in dα and azimuth in dφ fill the solid angle dΩ = cosα dα dφ. All geodesics of one
-///          azimuth lie in a
-///          vertical strip (floor geodesic × height), which is flat: at path length L those of dα are L·dα apart. Across the strip two
-///          floor geodesics of dφ are
-///          |sinκ(s)|·dφ apart after the arc s. So power dΩ/4π crosses the area L·|sinκ(s)|·dα·dφ. κ = 0: 1/(4πL²).
+/// Formula: cosα/(4π·L·|sinκ(L·cosα)|). Why: the directions at the lamp with slope in dα and azimuth in dφ fill the solid angle dΩ = cosα
+///          dα dφ. All geodesics of one azimuth lie in a vertical strip (floor geodesic × height), which is flat: at path length L those of
+///          dα are L·dα apart. Across the strip two floor geodesics of dφ are |sinκ(s)|·dφ apart after the arc s. So power dΩ/4π crosses
+///          the area L·|sinκ(s)|·dα·dφ. κ = 0: 1/(4πL²).
 /// Clamped: inside the lamp at its radius, and near the focus on S² (s = π, 2π, …) where geodesics meet again, at the lamp's radius too:
-///          there a lamp of that
-///          radius has an image of its own size.
+///          there a lamp of that radius has an image of its own size.
 [[nodiscard]] inline double geodesic_falloff(geometry::Space space, double length, double arc, double radius) {
   const double l = std::max(length, radius), s = std::fabs(arc);
   // s/|sinκ s| is 1 near the lamp; written so, nothing divides by a small arc.

@@ -118,7 +118,8 @@ Chosen choose(const Guide& guide, const std::array<double, 3>& u) {
   } else {
     double left = u[0] - guide.by_cosine;
     int i = 0;
-    while (i + 1 < guide.count && left >= guide.lobes[static_cast<std::size_t>(i)].share) left -= guide.lobes[static_cast<std::size_t>(i++)].share;
+    while (i + 1 < guide.count && left >= guide.lobes[static_cast<std::size_t>(i)].share)
+      left -= guide.lobes[static_cast<std::size_t>(i++)].share;
     const Guide::Lobe& lobe = guide.lobes[static_cast<std::size_t>(i)];
     d = about(lobe.axis, 1 - u[2] * (1 - lobe.cosine), turn);
   }

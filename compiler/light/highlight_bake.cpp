@@ -211,10 +211,12 @@ class PartShine {
     return finish(number, block, grid, base);
   }
 
-  // What is refracted or mirrored is often finer than texels. Where neighbours differ a texel shows the mean over its own size, as a pixel does.
+  // What is refracted or mirrored is often finer than texels. Where neighbours differ a texel shows the mean over its own size, as a pixel
+  // does.
   void soften(const Block& block, const place::Look& look, Grid& grid) {
     const auto beside = [&](int i, int j, const Color& here) {
-      return i >= 0 && j >= 0 && i < grid.w && j < grid.h && valid(block, grid, i, j) && difference(grid.light[grid.index(i, j)], here) > kContrast;
+      return i >= 0 && j >= 0 && i < grid.w && j < grid.h && valid(block, grid, i, j) &&
+             difference(grid.light[grid.index(i, j)], here) > kContrast;
     };
     std::vector<Color> soft = grid.light;
     for (int j = 0; j < grid.h; ++j)
@@ -367,7 +369,8 @@ std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightFie
   const std::size_t count = drawn.models.empty() ? std::min(room.parts.size(), field.normals.size()) : room.parts.size();
   for (std::size_t p = 0; p < count; ++p) {
     const PlacedMesh& mesh = room.parts[p];
-    if (std::none_of(mesh.look.begin(), mesh.look.end(), [&](std::uint16_t look) { return own_light(room.looks[look].material); })) continue;
+    if (std::none_of(mesh.look.begin(), mesh.look.end(), [&](std::uint16_t look) { return own_light(room.looks[look].material); }))
+      continue;
     ShinyPart part{p, ball_of(room.room.space, mesh), kSmallestShiny, {}, {}};
     const auto glassy = [&](std::uint16_t look) { return seen_in && mirrors_or_refracts(room.looks[look].material); };
     if (std::any_of(mesh.look.begin(), mesh.look.end(), glassy)) part.smallest_px = kSmallestGlass;

@@ -38,10 +38,12 @@ void enlarge(Baked& baked, int width, int height) {
   for (auto& part : atlas.uv)
     for (auto& at : part) at = {static_cast<float>(u * static_cast<double>(at[0])), static_cast<float>(v * static_cast<double>(at[1]))};
   if (!atlas.deep.rgb.empty()) {
-    mesh::DeepImage finer{width, height, std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
+    mesh::DeepImage finer{width, height,
+                          std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
     for (int y = 0; y < atlas.deep.height; ++y) {
       const auto from = atlas.deep.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * atlas.deep.width;
-      std::copy(from, from + 3 * static_cast<std::ptrdiff_t>(atlas.deep.width), finer.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * width);
+      std::copy(from, from + 3 * static_cast<std::ptrdiff_t>(atlas.deep.width),
+                finer.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * width);
     }
     atlas.deep = std::move(finer);
   }
@@ -53,7 +55,8 @@ void put(const Box& box, const std::vector<scene::Color>& shown, const std::vect
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
       const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x);
-      const std::size_t at = static_cast<std::size_t>(box.y + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(box.x + x);
+      const std::size_t at =
+          static_cast<std::size_t>(box.y + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(box.x + x);
       const double channels[] = {shown[from].r, shown[from].g, shown[from].b};
       for (std::size_t k = 0; k < 3; ++k) {
         image.rgba[4 * at + k] = static_cast<std::uint8_t>(std::lround(255 * channels[k]));

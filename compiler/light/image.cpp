@@ -205,10 +205,12 @@ Result<std::vector<LampImage>> lamp_images(const std::vector<HungLamp>& lamps, c
   if (auto images = collector.images(options.bounces)) return std::move(*images);
   int fits = -1;
   while (fits + 1 < options.bounces && collector.images(fits + 1)) ++fits;
-  return make_error("light.too-many-images",
-                    fmt::format("over {} mirrors {} lamp{} of this scene {} too many images: more than {} would add light, or {} would have to be looked at",
-                                options.bounces, lamps.size(), lamps.size() == 1 ? "" : "s", lamps.size() == 1 ? "has" : "have", kMostImages, kMostConsidered),
-                    fits >= 0 ? fmt::format("`bake: {{mirrors: {}}}` has few enough", fits) : "use fewer lamps");
+  return make_error(
+      "light.too-many-images",
+      fmt::format(
+          "over {} mirrors {} lamp{} of this scene {} too many images: more than {} would add light, or {} would have to be looked at",
+          options.bounces, lamps.size(), lamps.size() == 1 ? "" : "s", lamps.size() == 1 ? "has" : "have", kMostImages, kMostConsidered),
+      fits >= 0 ? fmt::format("`bake: {{mirrors: {}}}` has few enough", fits) : "use fewer lamps");
 }
 
 }  // namespace orbc::light

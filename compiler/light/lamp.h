@@ -39,8 +39,7 @@ struct HungLamp {
 /// How much brighter than a lamp that shines alike to all sides it is in a direction at angle θ to its axis; its mean over all directions
 /// is 1.
 /// Formula: sphere, point 1; rectangle and disk, lit on one side, 4·cosθ (Lambert); tube (4/π)·sinθ (Lambert); spot: constant inside, a
-///          smooth step over the
-///          outer tenth of its cone.
+///          smooth step over the outer tenth of its cone.
 [[nodiscard]] double profile(const HungLamp& lamp, double cos_axis);
 
 /// Hangs the lamps of a scene.

@@ -15,7 +15,9 @@ struct LightGrid {
   std::vector<std::array<float, 3>> light = std::vector<std::array<float, 3>>(4);
   std::uint64_t asked = 0;          ///< points that were lit for it
 
-  [[nodiscard]] std::array<float, 3>& point(int i, int j) { return light[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::array<float, 3>& point(int i, int j) {
+    return light[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)];
+  }
   [[nodiscard]] const std::array<float, 3>& point(int i, int j) const {
     return light[static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i)];
   }

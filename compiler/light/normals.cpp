@@ -146,7 +146,9 @@ LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, co
   // ∂/∂b of normalise(Σ bᵢXᵢ) has the length of the edge over |Σ bᵢXᵢ|.
   const double k2 = geometry::curvature(space);
   const double sagged = space == Space::euclidean ? 1 : std::sqrt(std::fabs(sum.w * sum.w + k2 * (sum.x * sum.x + sum.y * sum.y)));
-  const auto edge = [&](int k) { return local(space, frame, {(1 / sagged) * (part.floor[t[k]] - part.floor[t[0]]), part.z[t[k]] - part.z[t[0]]}); };
+  const auto edge = [&](int k) {
+    return local(space, frame, {(1 / sagged) * (part.floor[t[k]] - part.floor[t[0]]), part.z[t[k]] - part.z[t[0]]});
+  };
   const Vector3 across = cross(edge(1), edge(2));
   if (const double area = length(across); area > 1e-30) point.flat = global(frame, (1 / area) * across);
   for (int k = 0; k < 3; ++k) {

@@ -18,7 +18,8 @@ using scene::Color;
 
 constexpr int kLinked = 4;          // of so many directions one carries on what has been passed on: that is smoother than what lamps give
 constexpr std::size_t kMostLinks = std::size_t{1} << 24;   // 400 MB: where they would be more, fewer directions carry on
-constexpr double kInside = 0.25;    // of a cell, or of the way to the neighbours: how far inside of a surface its outermost vertices are asked
+// Of a cell, or of the way to the neighbours: how far inside of a surface its outermost vertices are asked
+constexpr double kInside = 0.25;
 constexpr int kStream = 512;        // rays followed at once
 constexpr int kMostPoints = 129;    // along a side of a block
 constexpr double kSettled = 2e-4;   // of white: change at which the iteration ends
@@ -36,7 +37,9 @@ struct Node {
   std::size_t first = 0, count = 0; ///< links
 };
 
-int points_on(double length, double density) { return std::clamp(static_cast<int>(std::ceil(length * density - 1e-9)), 1, kMostPoints - 1) + 1; }
+int points_on(double length, double density) {
+  return std::clamp(static_cast<int>(std::ceil(length * density - 1e-9)), 1, kMostPoints - 1) + 1;
+}
 
 /// The net: vertices of the parts, and points inside the blocks.
 class Net {
@@ -49,7 +52,8 @@ class Net {
       for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices, p >= s_.field.normals.size());
     }
     const std::size_t directions = nodes_.size() * static_cast<std::size_t>(options_.samples);
-    linked_ = static_cast<int>(std::clamp((directions + kMostLinks - 1) / kMostLinks, std::size_t{kLinked}, static_cast<std::size_t>(std::max(kLinked, options_.samples))));
+    linked_ = static_cast<int>(std::clamp((directions + kMostLinks - 1) / kMostLinks, std::size_t{kLinked},
+                                          static_cast<std::size_t>(std::max(kLinked, options_.samples))));
   }
 
   void gather(const Executor& executor, const Progress& progress) {
@@ -63,7 +67,8 @@ class Net {
     });
     for (std::size_t c = 0; c < chunks; ++c) {
       for (std::size_t i = c * kChunk; i < std::min(nodes_.size(), (c + 1) * kChunk); ++i) nodes_[i].first += links_.size();
-      if (links_.empty()) links_.reserve(std::min(kMostLinks + nodes_.size(), nodes_.size() * static_cast<std::size_t>(options_.samples / linked_ + 1)));
+      if (links_.empty())
+        links_.reserve(std::min(kMostLinks + nodes_.size(), nodes_.size() * static_cast<std::size_t>(options_.samples / linked_ + 1)));
       links_.insert(links_.end(), links[c].begin(), links[c].end());
       std::vector<Link>().swap(links[c]);
     }
@@ -182,7 +187,8 @@ class Net {
     node.first = links.size();
     Random random(id);
     Asked asked;
-    for (int k = 0; k < options_.samples; k += kStream) ask_some(guide, k, std::min(k + kStream, options_.samples), random, node, links, asked);
+    for (int k = 0; k < options_.samples; k += kStream)
+      ask_some(guide, k, std::min(k + kStream, options_.samples), random, node, links, asked);
     node.count = links.size() - node.first;
     node.blind = 2 * asked.inside > asked.all;
   }
@@ -215,10 +221,12 @@ class Net {
       const OnBlock place = map_.find(leg.point, leg.hit);
       const Color weight = leg.weight * surface_color(s_.room, leg.point);
       Color shown = field.ambient;
-      if (place.block >= 0) shown = shown + (1 / std::numbers::pi) * light_at(s_.direct[static_cast<std::size_t>(place.block)], place.u, place.v);
+      if (place.block >= 0)
+        shown = shown + (1 / std::numbers::pi) * light_at(s_.direct[static_cast<std::size_t>(place.block)], place.u, place.v);
       node.given = node.given + weight * shown;
       if (place.block < 0 || !linked[k]) continue;
-      links.push_back({place, {static_cast<float>(carry * weight.r), static_cast<float>(carry * weight.g), static_cast<float>(carry * weight.b)}});
+      links.push_back(
+          {place, {static_cast<float>(carry * weight.r), static_cast<float>(carry * weight.g), static_cast<float>(carry * weight.b)}});
     }
   }
 
@@ -275,7 +283,8 @@ class Net {
 
 }  // namespace
 
-std::vector<LightGrid> pass_on(const LitSurfaces& surfaces, const PassOptions& options, const Executor& executor, const Progress& progress) {
+std::vector<LightGrid> pass_on(const LitSurfaces& surfaces, const PassOptions& options, const Executor& executor,
+                               const Progress& progress) {
   Net net(surfaces, options);
   net.gather(executor, progress);
   net.settle(executor);

@@ -21,13 +21,14 @@ struct PassOptions {
   double density = 24;              ///< points per unit of length
 };
 
-/// Light that surfaces pass on to each other: for every block ∫ radiance·cosθ dω/π on a grid of points, as LightField::options.passes allows.
-/// How:   from every point of a net over all surfaces `samples` geodesics go out (light::Guide, the same lattice of directions everywhere, so
-///        that what error there is changes smoothly), over mirrors and through mirror and glass objects, to where they end: a link with a
-///        weight. What the lamps give there is added up at once; what has been passed on is carried over the links again and again
+/// Light that surfaces pass on to each other: for every block ∫ radiance·cosθ dω/π on a grid of points, as LightField::options.passes
+/// allows.
+/// How:   from every point of a net over all surfaces `samples` geodesics go out (light::Guide, the same lattice of directions everywhere,
+///        so that what error there is changes smoothly), over mirrors and through mirror and glass objects, to where they end: a link with
+///        a weight. What the lamps give there is added up at once; what has been passed on is carried over the links again and again
 ///        (Jacobi's iteration of the rendering equation; Cohen, Wallace, Radiosity and Realistic Image Synthesis, 1993, §5.3), until
-///        nothing changes or `passes` is reached. Same numbers for any executor.
-/// Points that see the inside of closed things (floor below frames) take on what their neighbours have.
+///        nothing changes or `passes` is reached. Same numbers for any executor. Points that see the inside of closed things (floor below
+///        frames) take on what their neighbours have.
 /// Not promised: more detail than `density`; caustics.
 [[nodiscard]] std::vector<LightGrid> pass_on(const LitSurfaces& surfaces, const PassOptions& options, const Executor& executor,
                                              const Progress& progress);

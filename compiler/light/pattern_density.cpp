@@ -41,7 +41,8 @@ bool blurs(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const B
     const double i = std::min(std::floor(u * cells_u), cells_u - 1.0), j = std::min(std::floor(v * cells_v), cells_v - 1.0);
     const double s = u * cells_u - i, t = v * cells_v - j;
     const auto texel = [&](double x, double y) { return albedo(x / cells_u, y / cells_v); };
-    const Color between = (1 - t) * ((1 - s) * texel(i, j) + s * texel(i + 1, j)) + t * ((1 - s) * texel(i, j + 1) + s * texel(i + 1, j + 1));
+    const Color between =
+        (1 - t) * ((1 - s) * texel(i, j) + s * texel(i + 1, j)) + t * ((1 - s) * texel(i, j + 1) + s * texel(i + 1, j + 1));
     wrong += difference(between, albedo(u, v)) > kPatternError * options.tolerance;
   }
   return wrong * kFew > places;

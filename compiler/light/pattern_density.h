@@ -8,10 +8,11 @@ namespace orbc::light {
 /// asked for gain nothing.
 [[nodiscard]] int level_of(double cells);
 
-/// Texels per unit of length for what varies on a block's surface: of solid patterns as many as they ask for, since granite hides detail that
-/// marble of the same cell does not have.
+/// Texels per unit of length for what varies on a block's surface: of solid patterns as many as they ask for, since granite hides detail
+/// that marble of the same cell does not have.
 /// Error: but for a few places, texels looked up in between are within twice the tolerance of the pattern itself, up to 3 times
 ///        `texture_fine` texels.
-[[nodiscard]] double pattern_density(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const Block& block, const BakeOptions& options);
+[[nodiscard]] double pattern_density(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const Block& block,
+                                     const BakeOptions& options);
 
 }  // namespace orbc::light

@@ -147,7 +147,8 @@ std::vector<std::uint32_t> images_near(const LightField& field, const Position& 
     const Way way = way_to(field.scene.prism.space, centre, image.samples[0], image.sheet);
     // On S² the focus makes falloff no function of distance alone that decreases.
     const bool decreases = field.scene.prism.space != Space::spherical;
-    if (!decreases || at_most(field, image, way.length - radius, std::max(way.arc - radius, 0.0)) >= share * field.options.cut) near.push_back(i);
+    if (!decreases || at_most(field, image, way.length - radius, std::max(way.arc - radius, 0.0)) >= share * field.options.cut)
+      near.push_back(i);
   }
   return near;
 }

@@ -52,14 +52,15 @@ struct LightField {
 /// The same from some of the images.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images);
 /// The images that can add anything at points within `radius` of a position: for many points that lie together. `share`: of the cut.
-[[nodiscard]] std::vector<std::uint32_t> images_near(const LightField& field, const geometry::Position& centre, double radius, double share = 1);
+[[nodiscard]] std::vector<std::uint32_t> images_near(const LightField& field, const geometry::Position& centre, double radius,
+                                                     double share = 1);
 
 /// A guess of `irradiance` from one shadow ray to one sample of one image: its mean over even numbers u in [0, 1) is the irradiance.
 [[nodiscard]] scene::Color irradiance_guess(const LightField& field, const LightPoint& point, const std::array<double, 3>& u);
 
 /// What a matte surface of the given colour sends to every eye: colour × (ambient + E/π), so that white under E = π shows as white at
-/// exposure 1; emissive ones emission × colour. Never more than white after exposure: a picture of the room, hung into all copies, holds no more, and both roads must
-/// agree.
+/// exposure 1; emissive ones emission × colour. Never more than white after exposure: a picture of the room, hung into all copies, holds no
+/// more, and both roads must agree.
 /// In: what comes to it from other surfaces is part of `irradiance`, times π.
 [[nodiscard]] scene::Color radiance_out(const LightField& field, const scene::Material& material, const scene::Color& albedo,
                                         const scene::Color& irradiance);
@@ -71,7 +72,8 @@ struct LightField {
                                      const trace::Hit& hit);
 
 /// The light of glossy and metal surfaces that a matte one does not have: the lamps' reflections in it, towards the eye.
-/// Formula: GGX (Walter et al., Microfacet Models for Refraction, 2007) with Smith's shadowing and Schlick's Fresnel; α = roughness². Of a lamp with an extent all samples count.
+/// Formula: GGX (Walter et al., Microfacet Models for Refraction, 2007) with Smith's shadowing and Schlick's Fresnel; α = roughness². Of a
+/// lamp with an extent all samples count.
 /// Error:   highlights that cannot reach 1/3000 of white are left out.
 [[nodiscard]] scene::Color highlight(const LightField& field, const LightPoint& point, const trace::Direction& to_eye,
                                      const scene::Material& material, const scene::Color& albedo);

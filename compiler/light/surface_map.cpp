@@ -15,7 +15,8 @@ using place::PlacedMesh;
 // (u, v) of a point of a block; the inverse of in_triangle.
 OnBlock place_on(const Block& block, int index, std::size_t triangle, const std::array<double, 3>& b) {
   if (triangle == block.first)
-    return {index, static_cast<float>(b[static_cast<std::size_t>(block.turn[1])]), static_cast<float>(b[static_cast<std::size_t>(block.turn[2])])};
+    return {index, static_cast<float>(b[static_cast<std::size_t>(block.turn[1])]),
+            static_cast<float>(b[static_cast<std::size_t>(block.turn[2])])};
   return {index, static_cast<float>(1 - b[static_cast<std::size_t>(block.second_turn[1])]),
           static_cast<float>(1 - b[static_cast<std::size_t>(block.second_turn[2])])};
 }
@@ -51,12 +52,13 @@ SurfaceMap::SurfaceMap(const place::PlacedRoom& room, const std::vector<std::vec
     }
     const bool is_flat = part.kind != PartKind::object && part.kind != PartKind::frame;
     charts_.push_back(is_flat ? chart_of(part) : Chart{});
-    if (is_flat) flats_[part.kind == PartKind::floor ? 0 : part.kind == PartKind::ceiling ? 1 : 2 + static_cast<std::size_t>(part.wall)].push_back(p);
+    if (is_flat)
+      flats_[part.kind == PartKind::floor ? 0 : part.kind == PartKind::ceiling ? 1 : 2 + static_cast<std::size_t>(part.wall)].push_back(p);
   }
 }
 
-// Where to look for a point: bounded coordinates all over the part. Floor and ceiling in the gnomonic chart, on S², where w may vanish, in the
-// disk; walls in (arc length from the middle of the wall, z).
+// Where to look for a point: bounded coordinates all over the part. Floor and ceiling in the gnomonic chart, on S², where w may vanish, in
+// the disk; walls in (arc length from the middle of the wall, z).
 std::array<double, 2> SurfaceMap::cell_coordinates(const PlacedMesh& part, const Point& at, double z) const {
   const geometry::Space space = room_.room.space;
   if (part.kind == PartKind::wall) {
@@ -167,7 +169,9 @@ OnBlock SurfaceMap::on_flat(std::size_t p, const trace::SurfacePoint& point) con
 OnBlock SurfaceMap::find(const trace::SurfacePoint& point, const trace::Hit& hit) const {
   if (hit.target == trace::Target::triangle)
     return on_triangle(static_cast<std::size_t>(hit.part), static_cast<std::size_t>(hit.triangle), {hit.b[0], hit.b[1], hit.b[2]});
-  const std::size_t flat = hit.target == trace::Target::floor ? 0 : hit.target == trace::Target::ceiling ? 1 : 2 + static_cast<std::size_t>(hit.wall);
+  const std::size_t flat = hit.target == trace::Target::floor     ? 0
+                           : hit.target == trace::Target::ceiling ? 1
+                                                                  : 2 + static_cast<std::size_t>(hit.wall);
   for (const std::size_t p : flats_[flat])
     if (const OnBlock found = on_flat(p, point); found.block >= 0) return found;
   return {};

@@ -153,7 +153,8 @@ bool covered(const LightField& field, const LightPoint& point) {
   if (field.scene.room == nullptr) return false;
   const Space space = field.scene.prism.space;
   const Frame frame = frame_at(space, point.at.floor);
-  const geometry::Vector3 n = geometry::normalised(local(space, frame, point.flat)), other = std::fabs(n.z) < 0.7 ? geometry::Vector3{0, 0, 1} : geometry::Vector3{1, 0, 0};
+  const geometry::Vector3 n = geometry::normalised(local(space, frame, point.flat)),
+                          other = std::fabs(n.z) < 0.7 ? geometry::Vector3{0, 0, 1} : geometry::Vector3{1, 0, 0};
   const geometry::Vector3 a = geometry::normalised(cross(n, other)), b = cross(n, a);
   for (const geometry::Vector3& d : {n, n + 0.5 * a + 0.3 * b, n - 0.45 * a + 0.35 * b, n + 0.1 * a - 0.6 * b}) {
     trace::Ray ray = trace::ray_from(space, point.at, global(frame, geometry::normalised(d)));

@@ -40,8 +40,8 @@ struct Traits : OpenMesh::DefaultTraits {
 /// OpenMesh's own test of a collapse looks for a mark by its name at every edge: most of the time went there.
 class Surface : public OpenMesh::TriMesh_ArrayKernelT<Traits> {
  public:
-  /// Whether the two ends can become one without two surfaces touching there: their rings share the two corners opposite to the edge and nothing else
-  /// (the link condition; Dey, Edelsbrunner, Guha & Nekhayev 1999), and borders stay borders.
+  /// Whether the two ends can become one without two surfaces touching there: their rings share the two corners opposite to the edge and
+  /// nothing else (the link condition; Dey, Edelsbrunner, Guha & Nekhayev 1999), and borders stay borders.
   [[nodiscard]] bool is_collapse_ok(OpenMesh::HalfedgeHandle edge) const {
     const OpenMesh::HalfedgeHandle back = opposite_halfedge_handle(edge);
     const OpenMesh::VertexHandle from = to_vertex_handle(back), to = to_vertex_handle(edge);
@@ -52,7 +52,8 @@ class Surface : public OpenMesh::TriMesh_ArrayKernelT<Traits> {
       if (is_boundary(sides[k])) continue;
       const OpenMesh::HalfedgeHandle second = next_halfedge_handle(sides[k]);
       third[k] = to_vertex_handle(second);
-      if (is_boundary(opposite_halfedge_handle(second)) && is_boundary(opposite_halfedge_handle(next_halfedge_handle(second)))) return false;
+      if (is_boundary(opposite_halfedge_handle(second)) && is_boundary(opposite_halfedge_handle(next_halfedge_handle(second))))
+        return false;
     }
     if (third[0] == third[1]) return false;
     if (third[0].is_valid() && third[1].is_valid() && is_boundary(from) && is_boundary(to)) return false;

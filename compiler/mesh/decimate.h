@@ -28,7 +28,8 @@ struct Decimated {
 
 /// A chain of ever coarser meshes, each made from the one before in one go.
 /// In:    numbers of triangles, decreasing.
-/// Makes: as many as there are numbers, or fewer when the mesh cannot be simplified further; as `decimate` does, each with what is kept there.
+/// Makes: as many as there are numbers, or fewer when the mesh cannot be simplified further; as `decimate` does, each with what is kept
+/// there.
 /// Error: not measured (0): see `deviation`.
 [[nodiscard]] std::vector<Decimated> decimate_in_steps(const Mesh& mesh, const std::vector<std::size_t>& triangles);
 

@@ -1,5 +1,5 @@
-// Pictures of more than 8 bits. libpng's simplified interface writes 16 bits as linear light (gAMA 1), which Blender ignores; so its full one,
-// and the codes are sRGB, as in 8 bits. OpenEXR holds linear light in halves: 11 bits of each channel, wherever it is.
+// Pictures of more than 8 bits. libpng's simplified interface writes 16 bits as linear light (gAMA 1), which Blender ignores; so its full
+// one, and the codes are sRGB, as in 8 bits. OpenEXR holds linear light in halves: 11 bits of each channel, wherever it is.
 #include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -26,7 +26,9 @@ void flush(png_structp) {}
 /// Big-endian rows of RGB, or RGBA with the alpha of `alpha`.
 std::vector<std::uint8_t> row_of(const DeepImage& image, const Image* alpha, int y) {
   std::vector<std::uint8_t> row;
-  const auto add = [&](std::uint16_t v) { row.push_back(static_cast<std::uint8_t>(v >> 8)), row.push_back(static_cast<std::uint8_t>(v & 255)); };
+  const auto add = [&](std::uint16_t v) {
+    row.push_back(static_cast<std::uint8_t>(v >> 8)), row.push_back(static_cast<std::uint8_t>(v & 255));
+  };
   for (int x = 0; x < image.width; ++x) {
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
     for (std::size_t c = 0; c < 3; ++c) add(image.rgb[3 * at + c]);
@@ -38,8 +40,9 @@ std::vector<std::uint8_t> row_of(const DeepImage& image, const Image* alpha, int
 // Errors of libpng leave by longjmp: nothing with a destructor is made between setjmp and it but the row, which stands outside.
 bool write_rows(png_structp png, png_infop info, const DeepImage& image, const Image* alpha, std::vector<std::uint8_t>& row) {
   if (setjmp(png_jmpbuf(png))) return false;
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 16, alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 16,
+               alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(png, info);
   for (int y = 0; y < image.height; ++y) {

@@ -65,7 +65,8 @@ Diagnostics wrong_place(const PlacedRoom& placed, const Position& eye, const Sou
     return {make_error("place.eye-outside-room", fmt::format("the eye is not between floor and ceiling: its height is {}", to_text(eye.z)),
                        fmt::format("the room is {} high", to_text(placed.height)), span)};
   if (const PlacedMesh* around = object_around(placed, eye))
-    return {make_error("place.eye-inside-object", fmt::format("the eye stands inside {}", around->name), "move the eye or the object", span)};
+    return {
+        make_error("place.eye-inside-object", fmt::format("the eye stands inside {}", around->name), "move the eye or the object", span)};
   return {};
 }
 

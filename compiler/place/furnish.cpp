@@ -148,8 +148,8 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
                                : panel.kind == PartKind::ceiling ? *shell.ceiling
                                                                  : shell.walls[panel.wall];
     if (!material.opacity_mask.value.empty())
-      builder.errors.push_back(make_error("place.masked-shell", fmt::format("the {} closes the room and can have no holes", panel.name), "put the `opacity_mask` on an object",
-                                          material.opacity_mask.span));
+      builder.errors.push_back(make_error("place.masked-shell", fmt::format("the {} closes the room and can have no holes", panel.name),
+                                          "put the `opacity_mask` on an object", material.opacity_mask.span));
     const std::vector<std::uint16_t> looks = builder.looks_of(material);
     builder.add_part(std::move(panel), looks, material.span);
   }
@@ -210,8 +210,9 @@ void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const
     material.pattern = Pattern::plain;
   }
   if (!material.opacity_mask.value.empty() && mesh.uv.empty()) {
-    builder.warnings.push_back(make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown without the holes of its mask", mesh.name),
-                                            "export the mesh with uv", material.opacity_mask.span));
+    builder.warnings.push_back(
+        make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown without the holes of its mask", mesh.name),
+                     "export the mesh with uv", material.opacity_mask.span));
     material.opacity_mask = {};
   }
   std::fill(mesh.look.begin(), mesh.look.end(), std::uint16_t{0});

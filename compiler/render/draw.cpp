@@ -117,7 +117,8 @@ std::vector<std::array<double, 2>> sample_points(int samples) {
   return points;
 }
 
-Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor, const Progress& progress) {
+Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor,
+          const Progress& progress) {
   Film film = make_film(eye.width, eye.height);
   if (options.light && options.light->options.passes > 0) film.error.assign(film.color.size(), 0);
   const std::vector<std::array<double, 2>> samples = sample_points(options.samples);
@@ -125,7 +126,8 @@ Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptio
   const std::uint64_t total = static_cast<std::uint64_t>(eye.width) * static_cast<std::uint64_t>(eye.height) * samples.size();
   std::atomic<std::uint64_t> done{0};
   executor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t tile) {
-    const int x0 = static_cast<int>(tile % static_cast<std::size_t>(columns)) * kTile, y0 = static_cast<int>(tile / static_cast<std::size_t>(columns)) * kTile;
+    const int x0 = static_cast<int>(tile % static_cast<std::size_t>(columns)) * kTile,
+              y0 = static_cast<int>(tile / static_cast<std::size_t>(columns)) * kTile;
     const int x1 = std::min(x0 + kTile, eye.width), y1 = std::min(y0 + kTile, eye.height);
     std::vector<Pixel> pixels;
     for (int y = y0; y < y1; ++y)

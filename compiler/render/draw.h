@@ -20,7 +20,8 @@ struct DrawOptions {
   const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
   const light::BakedLight* baked = nullptr;  ///< where given, what is matte is looked up there instead of being lit
   scene::Color background;          ///< seen, as it is, where a path is cut off
-  double white = std::numeric_limits<double>::infinity();   ///< the most that a surface shows in scenes without light (lit ones: light::white_of)
+  /// The most that a surface shows in scenes without light (lit ones: light::white_of)
+  double white = std::numeric_limits<double>::infinity();
   bool weighs_background = false;   ///< it is seen times the path's weight instead
 };
 

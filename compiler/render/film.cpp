@@ -92,7 +92,10 @@ mesh::Image to_image(const Film& film, Pass pass, double exposure) {
   switch (pass) {
     case Pass::color: return to_image(film, exposure);
     case Pass::depth: return painted(film, [&](std::size_t i) { return grey(1 / (1 + static_cast<double>(film.depth[i]))); });
-    case Pass::normal: return painted(film, [&](std::size_t i) { return scene::Color{(film.normal[i][0] + 1) / 2, (film.normal[i][1] + 1) / 2, (film.normal[i][2] + 1) / 2}; });
+    case Pass::normal:
+      return painted(film, [&](std::size_t i) {
+        return scene::Color{(film.normal[i][0] + 1) / 2, (film.normal[i][1] + 1) / 2, (film.normal[i][2] + 1) / 2};
+      });
     case Pass::object: return painted(film, [&](std::size_t i) { return distinct(film.object[i]); });
     case Pass::bounces: return painted(film, [&](std::size_t i) { return grey(1 / (1 + 0.25 * film.bounces[i])); });
     case Pass::weight: return painted(film, [&](std::size_t i) { return grey(film.weight[i]); });

@@ -9,7 +9,8 @@
 
 namespace orbc::render {
 
-/// What the reference picture records, one value per pixel, rows from top to bottom. Passes other than colour are those of the pixel's first sample.
+/// What the reference picture records, one value per pixel, rows from top to bottom. Passes other than colour are those of the pixel's
+/// first sample.
 struct Film {
   int width = 0, height = 0;
   std::vector<scene::Color> color;            ///< linear radiance, averaged over the samples

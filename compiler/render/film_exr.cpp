@@ -23,7 +23,8 @@ std::string to_exr(const Film& film) {
   Imf::FrameBuffer frame;
   for (std::size_t k = 0; k < std::size(names); ++k) {
     header.channels().insert(names[k], Imf::Channel(Imf::FLOAT));
-    frame.insert(names[k], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(planes[k].data()), sizeof(float), sizeof(float) * static_cast<std::size_t>(film.width)));
+    frame.insert(names[k], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(planes[k].data()), sizeof(float),
+                                      sizeof(float) * static_cast<std::size_t>(film.width)));
   }
   std::string bytes;
   {

@@ -28,7 +28,8 @@ struct Walker {
     seen.most = seen.most + radiance;
   }
 
-  void go_on(const trace::Path& path, const trace::SurfacePoint& at, const Direction& direction, const Color& weight, double share, int depth) {
+  void go_on(const trace::Path& path, const trace::SurfacePoint& at, const Direction& direction, const Color& weight, double share,
+             int depth) {
     trace::FollowOptions follow = follow_options(options);
     follow.weight = weight;
     follow.bounces = path.bounces;

@@ -14,8 +14,8 @@ struct Seen {
   trace::SurfacePoint surface;      ///< there, if hit
 };
 
-/// Radiance along a ray: plain colours in scenes without lamps, else their light (DrawOptions::light) and, with `integrator: path`, one guess
-/// of what surfaces pass on to each other; mirrors and glass among the objects followed to `max_depth`.
+/// Radiance along a ray: plain colours in scenes without lamps, else their light (DrawOptions::light) and, with `integrator: path`, one
+/// guess of what surfaces pass on to each other; mirrors and glass among the objects followed to `max_depth`.
 [[nodiscard]] Seen radiance(const trace::TraceScene& scene, const trace::Ray& ray, const DrawOptions& options,
                             const Chance& chance = {});
 /// The same for a ray that has been followed already, with the options of `follow_options`.

@@ -32,9 +32,9 @@ struct Certificate {
   double area_residual = 0;         ///< |area by Gauss–Bonnet of χ − area of the stored polygon|
 };
 
-/// The floor of the mirror room, realised. Centre at the origin (incentre if it has one, else the normalised mean of the corners),
-/// corner 1 in the direction of +x, corners counter-clockwise. `**` is a rectangle of four corners π/2: walls 1 and 3 are the mirrors, 2 and 4 plain ends.
-/// Lengths in curvature radii (E²: scene units).
+/// The floor of the mirror room, realised. Centre at the origin (incentre if it has one, else the normalised mean of the corners), corner 1
+/// in the direction of +x, corners counter-clockwise. `**` is a rectangle of four corners π/2: walls 1 and 3 are the mirrors, 2 and 4 plain
+/// ends. Lengths in curvature radii (E²: scene units).
 struct Room {
   geometry::Space space = geometry::Space::euclidean;
   notation::Orbifold orbifold;

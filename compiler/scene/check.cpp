@@ -36,7 +36,8 @@ class Checker {
   void check_walls() {
     const int walls = wall_count(scene_.orbifold);
     if (static_cast<int>(scene_.room.walls.size()) != walls)
-      error("scene.wall-count", fmt::format("the room has {} walls, but {} are furnished", walls, scene_.room.walls.size()), "", scene_.room.span);
+      error("scene.wall-count", fmt::format("the room has {} walls, but {} are furnished", walls, scene_.room.walls.size()), "",
+            scene_.room.span);
   }
 
   void check_object(const Object& object) {
@@ -57,7 +58,8 @@ class Checker {
 
   void check_place(const Place& place) {
     if (const auto* disk = std::get_if<AtDisk>(&place.floor); disk && curvature_ < 0 && std::norm(disk->z) >= 1)
-      error("scene.outside-space", "this point lies outside the hyperbolic plane: its disk has radius 1", "x² + y² must be less than 1", place.span);
+      error("scene.outside-space", "this point lies outside the hyperbolic plane: its disk has radius 1", "x² + y² must be less than 1",
+            place.span);
     if (const auto* polar = std::get_if<AtPolar>(&place.floor)) check_distance(polar->r, place.span);
     if (const auto* toward = std::get_if<AtToward>(&place.floor)) check_distance(toward->distance, place.span);
     if (const auto* walls = std::get_if<AtWalls>(&place.floor))
@@ -73,13 +75,15 @@ class Checker {
       const bool both_centre = std::holds_alternative<AtCentre>(target->floor) && std::holds_alternative<AtCentre>(camera.place.floor);
       const double eye_z = camera.place.z.value_or(scene_.room.height / 2);
       if (both_centre && target->z.value_or(eye_z) == eye_z)
-        error("scene.looks-at-itself", "the camera stands in the point it looks at", "move it with `at`, or give a direction: look_at: {azimuth: 0deg, elevation: 0deg}",
+        error("scene.looks-at-itself", "the camera stands in the point it looks at",
+              "move it with `at`, or give a direction: look_at: {azimuth: 0deg, elevation: 0deg}",
               camera.look_at.span.source ? camera.look_at.span : camera.span);
     }
     const double ratio = static_cast<double>(camera.size[0]) / camera.size[1];
     if (camera.projection == Projection::panorama && std::abs(ratio - 2) > 0.02)
-      diagnostics_.push_back(make_warning("scene.stretched", fmt::format("a panorama shows 360° × 180°; {}×{} pixels stretch it", camera.size[0], camera.size[1]),
-                                          fmt::format("make it twice as wide as high: size: [{}, {}]", 2 * camera.size[1], camera.size[1]), camera.size_span));
+      diagnostics_.push_back(make_warning(
+          "scene.stretched", fmt::format("a panorama shows 360° × 180°; {}×{} pixels stretch it", camera.size[0], camera.size[1]),
+          fmt::format("make it twice as wide as high: size: [{}, {}]", 2 * camera.size[1], camera.size[1]), camera.size_span));
   }
 
   void check_look_at(const std::string& name) {
@@ -89,10 +93,12 @@ class Checker {
       known.push_back(object.name);
     }
     const std::string nearest = nearest_word(name, known);
-    std::string hint = !nearest.empty()  ? fmt::format("did you mean `{}`?", nearest)
-                       : !known.empty() ? "objects have the name of `name`, of their mesh file or of their kind; here is " + known.front()
-                                        : "this scene has no objects; a place is {polar: [r, 30deg]}, a direction {azimuth: 30deg, elevation: 0deg}";
-    error("scene.unknown-object", fmt::format("`look_at` names no object of this scene: \"{}\"", name.substr(0, 200)), std::move(hint), scene_.camera.look_at.span);
+    std::string hint = !nearest.empty() ? fmt::format("did you mean `{}`?", nearest)
+                       : !known.empty()
+                           ? "objects have the name of `name`, of their mesh file or of their kind; here is " + known.front()
+                           : "this scene has no objects; a place is {polar: [r, 30deg]}, a direction {azimuth: 30deg, elevation: 0deg}";
+    error("scene.unknown-object", fmt::format("`look_at` names no object of this scene: \"{}\"", name.substr(0, 200)), std::move(hint),
+          scene_.camera.look_at.span);
   }
 
   const Scene& scene_;

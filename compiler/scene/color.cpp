@@ -47,7 +47,9 @@ constexpr std::array<NamedColor, 148> kNamed{{
     {"whitesmoke", 0xf5f5f5}, {"yellow", 0xffff00}, {"yellowgreen", 0x9acd32},
 }};
 
-int hex_digit(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; }
+int hex_digit(char c) {
+  return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
 
 }  // namespace
 
@@ -74,7 +76,8 @@ const std::vector<std::string>& color_names() {
 }
 
 std::optional<Color> named_color(std::string_view name) {
-  const auto* found = std::lower_bound(kNamed.begin(), kNamed.end(), name, [](const NamedColor& c, std::string_view n) { return c.name < n; });
+  const auto* found =
+      std::lower_bound(kNamed.begin(), kNamed.end(), name, [](const NamedColor& c, std::string_view n) { return c.name < n; });
   if (found == kNamed.end() || found->name != name) return std::nullopt;
   return from_hex(found->rrggbb);
 }
@@ -82,7 +85,8 @@ std::optional<Color> named_color(std::string_view name) {
 std::optional<Color> parse_color(std::string_view text) {
   if (text.empty() || text[0] != '#') return named_color(text);
   const std::string_view digits = text.substr(1);
-  if ((digits.size() != 3 && digits.size() != 6) || std::any_of(digits.begin(), digits.end(), [](char c) { return hex_digit(c) < 0; })) return std::nullopt;
+  if ((digits.size() != 3 && digits.size() != 6) || std::any_of(digits.begin(), digits.end(), [](char c) { return hex_digit(c) < 0; }))
+    return std::nullopt;
   unsigned value = 0;
   for (const char c : digits) {
     const auto digit = static_cast<unsigned>(hex_digit(c));
@@ -93,7 +97,8 @@ std::optional<Color> parse_color(std::string_view text) {
 
 Color color_of_temperature(double kelvin) {
   const double t = 1000 / kelvin;
-  const double x = kelvin < 4000 ? ((-0.2661239 * t - 0.2343589) * t + 0.8776956) * t + 0.179910 : ((-3.0258469 * t + 2.1070379) * t + 0.2226347) * t + 0.240390;
+  const double x = kelvin < 4000 ? ((-0.2661239 * t - 0.2343589) * t + 0.8776956) * t + 0.179910
+                                 : ((-3.0258469 * t + 2.1070379) * t + 0.2226347) * t + 0.240390;
   const double y = kelvin < 2222   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
                    : kelvin < 4000 ? ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867
                                    : ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;

@@ -34,7 +34,8 @@ struct Color {
 [[nodiscard]] std::optional<Color> parse_color(std::string_view text);
 
 /// The colour of a black body, its largest channel 1; `kelvin` in 1667…25000.
-/// Source: Kim et al., "Design of advanced color temperature control system for HDTV applications" (2002): cubic fits of the Planckian locus.
+/// Source: Kim et al., "Design of advanced color temperature control system for HDTV applications" (2002): cubic fits of the Planckian
+/// locus.
 [[nodiscard]] Color color_of_temperature(double kelvin);
 
 }  // namespace orbc::scene

@@ -8,7 +8,9 @@
 
 namespace orbc::scene {
 
-int wall_count(const notation::Orbifold& orbifold) { return orbifold.strip ? 4 : std::max<int>(1, static_cast<int>(orbifold.corners.size())); }
+int wall_count(const notation::Orbifold& orbifold) {
+  return orbifold.strip ? 4 : std::max<int>(1, static_cast<int>(orbifold.corners.size()));
+}
 
 int corner_count(const notation::Orbifold& orbifold) { return orbifold.strip ? 4 : static_cast<int>(orbifold.corners.size()); }
 

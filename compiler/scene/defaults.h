@@ -16,9 +16,8 @@ namespace orbc::scene {
 /// A frame's looks: gilt wood.
 [[nodiscard]] Frame default_frame();
 
-/// The scene that `orbc: 1` and the notation alone describe.
-/// How far the mirrors are followed when the author does not say: 12 bounces, in H² as many as give at most 200 copies (exact, from the growth
-/// series), since the number of copies grows exponentially there.
+/// The scene that `orbc: 1` and the notation alone describe. How far the mirrors are followed when the author does not say: 12 bounces, in
+/// H² as many as give at most 200 copies (exact, from the growth series), since the number of copies grows exponentially there.
 [[nodiscard]] int default_max_bounces(const notation::Orbifold& orbifold);
 [[nodiscard]] Scene default_scene(const notation::Orbifold& orbifold);
 

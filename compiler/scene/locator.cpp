@@ -34,7 +34,8 @@ Decoded decode(std::string_view text, std::size_t at) {
 }
 
 bool printable(char32_t c) {
-  return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c < 0x7F) || c == 0x85 || (c >= 0xA0 && c < 0xFFFE && c != 0xFEFF) || c >= 0x10000;
+  return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c < 0x7F) || c == 0x85 || (c >= 0xA0 && c < 0xFFFE && c != 0xFEFF) ||
+         c >= 0x10000;
 }
 
 }  // namespace
@@ -63,7 +64,8 @@ SourceSpan Locator::span(std::size_t begin, std::size_t end) const {
   const auto line = std::upper_bound(line_starts_.begin(), line_starts_.end(), begin) - line_starts_.begin();
   const std::size_t line_start = line_starts_[static_cast<std::size_t>(line) - 1];
   const std::size_t before = characters_before(begin);
-  return {source_, static_cast<std::size_t>(line), before - characters_before(line_start) + 1, std::max<std::size_t>(1, characters_before(end) - before)};
+  return {source_, static_cast<std::size_t>(line), before - characters_before(line_start) + 1,
+          std::max<std::size_t>(1, characters_before(end) - before)};
 }
 
 SourceSpan Locator::at(std::size_t offset) const { return span(offset, offset + 1); }
@@ -105,7 +107,8 @@ std::optional<Diagnostic> Locator::first_bad_character() const {
       return make_error("scene.not-utf8", fmt::format("byte {} (0x{:02X}) is not UTF-8", i + 1, static_cast<unsigned char>(text()[i])),
                         "save the file with the encoding UTF-8", at(i));
     if (!printable(decoded.character))
-      return make_error("scene.bad-character", fmt::format("the character U+{:04X} may not stand in a scene", static_cast<unsigned>(decoded.character)),
+      return make_error("scene.bad-character",
+                        fmt::format("the character U+{:04X} may not stand in a scene", static_cast<unsigned>(decoded.character)),
                         "remove it; an editor may show it as nothing", at(i));
     i += decoded.length;
   }

@@ -8,7 +8,8 @@
 
 namespace orbc::scene {
 
-/// What the notation alone says of the room; 0 walls = nothing is known, because the notation itself is wrong (then nothing is said of numbers).
+/// What the notation alone says of the room; 0 walls = nothing is known, because the notation itself is wrong (then nothing is said of
+/// numbers).
 struct RoomFacts {
   int walls = 0;
   int corners = 0;
@@ -38,7 +39,8 @@ struct RoomFacts {
 [[nodiscard]] std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator);
-/// Divides all light of a scene (lamps, ambient, what glows) by the white point that it names, so that this looks white in both roads and every output.
+/// Divides all light of a scene (lamps, ambient, what glows) by the white point that it names, so that this looks white in both roads and
+/// every output.
 void balance_white(const Fields& fields, Scene& scene);
 [[nodiscard]] CoverSpec read_cover(Reader& reader, const Node& node, CoverSpec cover);
 

@@ -27,7 +27,10 @@ void read_version(const Fields& fields) {
   const auto version = number_of(*node);
   if (!version) fields.reader().wrong_type(*node, "`orbc`", "the version of the file format, the number 1");
   else if (*version != 1)
-    fields.reader().error("scene.wrong-version", node->span, fmt::format("this file has version {} of the scene format, this program reads version 1", node->text.substr(0, 40)), "write `orbc: 1`");
+    fields.reader().error(
+        "scene.wrong-version", node->span,
+        fmt::format("this file has version {} of the scene format, this program reads version 1", node->text.substr(0, 40)),
+        "write `orbc: 1`");
 }
 
 std::optional<notation::Orbifold> read_orbifold(const Fields& fields, bool allow_non_orbifold) {
@@ -51,7 +54,9 @@ Node empty_map() {
 Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
   Scene scene;
   scene.span = root.span;
-  const Fields fields(reader, root, "the scene", {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "white", "integrator", "bake", "camera", "cover"});
+  const Fields fields(reader, root, "the scene",
+                      {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "white", "integrator",
+                       "bake", "camera", "cover"});
   if (!fields.is_map()) return scene;
   read_version(fields);
   scene.allow_non_orbifold = fields.boolean("allow_non_orbifold", false);
@@ -68,7 +73,8 @@ Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
   if (fields.has("lights")) scene.lamps = read_lamps(reader, part("lights"), facts);
   scene.ambient = fields.color("ambient", scene.ambient);
   scene.exposure = fields.number("exposure", scene.exposure, {0, 1e6, true});
-  scene.integrator = fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
+  scene.integrator =
+      fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
   scene.integrator = instead.integrator.value_or(scene.integrator);
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
   scene.camera = read_camera(reader, part("camera"), facts);
@@ -117,7 +123,8 @@ Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const 
 
 RoomFacts facts_of(const notation::Orbifold& orbifold) {
   const bool right_angles = std::all_of(orbifold.corners.begin(), orbifold.corners.end(), [](const Rational& k) { return k == 2; });
-  return {wall_count(orbifold), corner_count(orbifold), orbifold.strip, curvature_sign(orbifold) == 0, orbifold.corners.size() == 4 && right_angles};
+  return {wall_count(orbifold), corner_count(orbifold), orbifold.strip, curvature_sign(orbifold) == 0,
+          orbifold.corners.size() == 4 && right_angles};
 }
 
 Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Instead& instead) {
@@ -132,7 +139,8 @@ Result<Read> read_scene(const SourceText& source, const std::string& folder, con
 
 Result<Read> load_scene(const std::string& path, const Instead& instead) {
   const auto cannot_read = [&](const std::string& why) {
-    return make_error("scene.cannot-read", fmt::format("cannot read the scene {}: {}", path, why), "give the path of a scene file; `orbc new '*2323'` writes one");
+    return make_error("scene.cannot-read", fmt::format("cannot read the scene {}: {}", path, why),
+                      "give the path of a scene file; `orbc new '*2323'` writes one");
   };
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return cannot_read("it is a folder");
@@ -145,7 +153,8 @@ Result<Read> load_scene(const std::string& path, const Instead& instead) {
   if (file.bad()) return cannot_read("reading failed");
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > limit)
-    return make_error("scene.too-large", fmt::format("{} has more bytes than a scene may have ({})", path, limit), "put big data into mesh files");
+    return make_error("scene.too-large", fmt::format("{} has more bytes than a scene may have ({})", path, limit),
+                      "put big data into mesh files");
   return read_scene(SourceText{path, std::move(text)}, std::filesystem::path(path).parent_path().string(), instead);
 }
 

@@ -20,8 +20,8 @@ struct Instead {
   std::optional<Integrator> integrator;
 };
 
-/// Reads a scene file's text. Never crashes, hangs or overflows the stack, whatever the text is; all mistakes of a file are reported at once,
-/// in the order of the file (a YAML mistake alone, since nothing after it can be trusted; at most 100).
+/// Reads a scene file's text. Never crashes, hangs or overflows the stack, whatever the text is; all mistakes of a file are reported at
+/// once, in the order of the file (a YAML mistake alone, since nothing after it can be trusted; at most 100).
 /// In:          the text with its name for messages; `folder` = what paths of meshes and textures are relative to.
 /// Makes:       a scene with every default filled in: as many walls as the notation has, one name per object.
 /// Diagnostics: scene.* (schema/diagnostics.md), notation.* placed at the notation.

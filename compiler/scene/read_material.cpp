@@ -1,5 +1,6 @@
 // Materials: a preset ("marble"), a colour ("coral"), or {kind: …, color: …, checker: [a, b], texture: path, …}.
-// Metals: reflectance at normal incidence of the pure metals, linear Rec. 709 (Akenine-Möller et al., Real-Time Rendering, 4th ed., table 9.2).
+// Metals: reflectance at normal incidence of the pure metals, linear Rec. 709 (Akenine-Möller et al., Real-Time Rendering, 4th ed., table
+// 9.2).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +65,11 @@ void read_pattern(const Fields& fields, Material& material) {
   if (key.empty()) return;
   if (key == "pattern") {
     material.pattern = fields.choice<Pattern>("pattern", material.pattern,
-                                              {{"plain", Pattern::plain}, {"checker", Pattern::checker}, {"marble", Pattern::marble}, {"wood", Pattern::wood}, {"granite", Pattern::granite}});
+                                              {{"plain", Pattern::plain},
+                                               {"checker", Pattern::checker},
+                                               {"marble", Pattern::marble},
+                                               {"wood", Pattern::wood},
+                                               {"granite", Pattern::granite}});
     return;
   }
   const Node& node = *fields.find(key);
@@ -76,7 +81,9 @@ void read_pattern(const Fields& fields, Material& material) {
   }
   material.pattern = pattern_named(key);
   for (const char* other : {"color", "second"})
-    if (fields.has(other)) reader.error("scene.conflict", fields.key_span(other), fmt::format("`{}` names both colours already, `{}` cannot stand beside it", key, other), "keep one of the two");
+    if (fields.has(other))
+      reader.error("scene.conflict", fields.key_span(other),
+                   fmt::format("`{}` names both colours already, `{}` cannot stand beside it", key, other), "keep one of the two");
   if (!reader.list(node, fmt::format("`{}`", key), 2, "a list of two colours")) return;
   material.color = reader.color(node.items[0], "the first colour", material.color);
   material.second = reader.color(node.items[1], "the second colour", material.second);
@@ -89,15 +96,22 @@ void read_mask(const Fields& fields, Material& material) {
   if (!node) return fields.no_effect("cutoff", "it says where an `opacity_mask` has holes, and there is none");
   Reader& reader = fields.reader();
   if (auto path = reader.text(*node, "`opacity_mask`")) material.opacity_mask = {*path, node->span};
-  const auto conflict = [&](const char* what) { reader.error("scene.cannot-be-masked", fields.key_span("opacity_mask"), fmt::format("an `opacity_mask` does not go with {}", what), "keep one of the two"); };
+  const auto conflict = [&](const char* what) {
+    reader.error("scene.cannot-be-masked", fields.key_span("opacity_mask"), fmt::format("an `opacity_mask` does not go with {}", what),
+                 "keep one of the two");
+  };
   if (material.kind == MaterialKind::mirror || material.kind == MaterialKind::glass) conflict("mirror and glass");
   if (material.pattern != Pattern::plain && material.pattern != Pattern::texture) conflict("solid patterns");
 }
 
 void read_own_keys(const Fields& fields, Material& material) {
   material.kind = fields.choice<MaterialKind>("kind", material.kind,
-                                              {{"matte", MaterialKind::matte}, {"glossy", MaterialKind::glossy}, {"metal", MaterialKind::metal},
-                                               {"mirror", MaterialKind::mirror}, {"glass", MaterialKind::glass}, {"emissive", MaterialKind::emissive}});
+                                              {{"matte", MaterialKind::matte},
+                                               {"glossy", MaterialKind::glossy},
+                                               {"metal", MaterialKind::metal},
+                                               {"mirror", MaterialKind::mirror},
+                                               {"glass", MaterialKind::glass},
+                                               {"emissive", MaterialKind::emissive}});
   read_pattern(fields, material);
   material.color = fields.color("color", material.color);
   material.second = fields.color("second", material.second);
@@ -118,7 +132,8 @@ Material read_named(Reader& reader, const Node& node, const std::string& what, c
   std::vector<std::string> known = preset_names();
   known.insert(known.end(), color_names().begin(), color_names().end());
   const std::string nearest = nearest_word(node.text, known);
-  reader.error("scene.unknown-material", node.span, fmt::format("{} must be a colour, a map of material keys, or {}", what, listed(preset_names())),
+  reader.error("scene.unknown-material", node.span,
+               fmt::format("{} must be a colour, a map of material keys, or {}", what, listed(preset_names())),
                nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest));
   return material;
 }
@@ -126,8 +141,9 @@ Material read_named(Reader& reader, const Node& node, const std::string& what, c
 }  // namespace
 
 const std::vector<std::string>& material_keys() {
-  static const std::vector<std::string> keys = {"material", "preset", "kind",    "color", "second",    "pattern", "checker", "marble",
-                                                "wood",     "granite", "texture", "cell",  "roughness", "index",   "emission", "opacity_mask", "cutoff"};
+  static const std::vector<std::string> keys = {"material",  "preset", "kind",     "color",        "second",  "pattern",
+                                                "checker",   "marble", "wood",     "granite",      "texture", "cell",
+                                                "roughness", "index",  "emission", "opacity_mask", "cutoff"};
   return keys;
 }
 
@@ -155,7 +171,9 @@ Material read_material_keys(const Fields& fields, const Material& base) {
   Material material = base;
   if (const Node* node = fields.find("material")) {
     for (const std::string& key : material_keys())
-      if (key != "material" && fields.has(key)) reader.error("scene.conflict", fields.key_span(key), fmt::format("`{}` must stand inside `material`, since that is given", key), "keep one of the two");
+      if (key != "material" && fields.has(key))
+        reader.error("scene.conflict", fields.key_span(key), fmt::format("`{}` must stand inside `material`, since that is given", key),
+                     "keep one of the two");
     return read_material(reader, *node, "`material`", base);
   }
   if (const Node* node = fields.find("preset")) {

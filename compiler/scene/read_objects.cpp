@@ -42,7 +42,8 @@ MeshFile read_mesh(Reader& reader, const Node& node) {
   const std::string ending = split(*path).ending;
   if (std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end()) return mesh;
   const std::string nearest = nearest_word(ending, kEndings);
-  reader.error("scene.unknown-format", node.span, fmt::format("the mesh's name must end in {}", listed({".obj", ".ply", ".off", ".stl", ".gltf", ".glb"})),
+  reader.error("scene.unknown-format", node.span,
+               fmt::format("the mesh's name must end in {}", listed({".obj", ".ply", ".off", ".stl", ".gltf", ".glb"})),
                nearest.empty() ? "" : fmt::format("did you mean `.{}`?", nearest));
   return mesh;
 }
@@ -53,7 +54,8 @@ TorusSpec read_torus(Reader& reader, const Node& node) {
   torus.radius = fields.number("radius", torus.radius, kLength);
   torus.tube = fields.number("tube", std::min(torus.tube, torus.radius / 3), kLength);
   if (torus.tube >= torus.radius)
-    reader.error("scene.bad-torus", fields.key_span("tube"), fmt::format("the tube ({}) must be thinner than the torus's radius ({})", torus.tube, torus.radius));
+    reader.error("scene.bad-torus", fields.key_span("tube"),
+                 fmt::format("the tube ({}) must be thinner than the torus's radius ({})", torus.tube, torus.radius));
   return torus;
 }
 
@@ -65,9 +67,12 @@ TorusKnotSpec read_torus_knot(Reader& reader, const Node& node) {
   knot.radius = fields.number("radius", knot.radius, kLength);
   knot.tube = fields.number("tube", std::min(knot.tube, knot.radius * 4 / 15), kLength);
   if (std::gcd(knot.p, knot.q) != 1)
-    reader.error("scene.bad-torus", fields.key_span("q"), fmt::format("p = {} and q = {} have a common divisor: that is no single knot", knot.p, knot.q), "take 2 and 3, 2 and 5, 3 and 4, …");
+    reader.error("scene.bad-torus", fields.key_span("q"),
+                 fmt::format("p = {} and q = {} have a common divisor: that is no single knot", knot.p, knot.q),
+                 "take 2 and 3, 2 and 5, 3 and 4, …");
   if (knot.tube >= knot.radius)
-    reader.error("scene.bad-torus", fields.key_span("tube"), fmt::format("the tube ({}) must be thinner than the knot's radius ({})", knot.tube, knot.radius));
+    reader.error("scene.bad-torus", fields.key_span("tube"),
+                 fmt::format("the tube ({}) must be thinner than the knot's radius ({})", knot.tube, knot.radius));
   return knot;
 }
 
@@ -92,11 +97,13 @@ void read_shape(const Fields& fields, const std::string& key, const RoomFacts& f
     object.shape = SphereSpec{sphere.number("radius", SphereSpec{}.radius, kLength)};
   } else if (key == "cylinder") {
     const Fields cylinder(reader, node, "a cylinder", {"radius", "height"});
-    object.shape = CylinderSpec{cylinder.number("radius", CylinderSpec{}.radius, kLength), cylinder.number("height", CylinderSpec{}.height, kLength)};
+    object.shape =
+        CylinderSpec{cylinder.number("radius", CylinderSpec{}.radius, kLength), cylinder.number("height", CylinderSpec{}.height, kLength)};
   } else if (key == "box") {
     const Fields box(reader, node, "a box", {"size"});
     BoxSpec spec;
-    if (const Node* size = box.find("size")) spec.size = reader.numbers<3>(*size, "`size`", spec.size, kLength, "a list of three lengths: [x, y, z]");
+    if (const Node* size = box.find("size"))
+      spec.size = reader.numbers<3>(*size, "`size`", spec.size, kLength, "a list of three lengths: [x, y, z]");
     object.shape = spec;
   } else if (key == "torus") {
     object.shape = read_torus(reader, node);
@@ -124,10 +131,12 @@ Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
   const Fields fields(reader, node, "an object", keys);
   const std::string shape = fields.only_one_of(shape_keys());
   if (shape.empty() && fields.is_map())
-    reader.error("scene.missing-key", node.span, "an object needs one of the keys " + listed(shape_keys()), "write - mesh: meshes/statue.obj or - sphere: {radius: 0.1}");
+    reader.error("scene.missing-key", node.span, "an object needs one of the keys " + listed(shape_keys()),
+                 "write - mesh: meshes/statue.obj or - sphere: {radius: 0.1}");
   if (!shape.empty()) read_shape(fields, shape, facts, object);
   if (const Node* size = fields.find("size")) object.size = fields.number("size", 1, kLength), object.size_span = size->span;
-  object.embedding = fields.choice<Embedding>("embedding", object.embedding, {{"conformal", Embedding::conformal}, {"exponential", Embedding::exponential}});
+  object.embedding = fields.choice<Embedding>("embedding", object.embedding,
+                                              {{"conformal", Embedding::conformal}, {"exponential", Embedding::exponential}});
   const auto* mesh = std::get_if<MeshFile>(&object.shape);
   const std::string ending = mesh ? split(mesh->path.value).ending : "";
   object.up = fields.choice<char>("up", ending == "gltf" || ending == "glb" ? 'y' : 'z', {{"y", 'y'}, {"z", 'z'}});
@@ -153,7 +162,9 @@ void make_names_unique(Reader& reader, std::vector<Object>& objects) {
     if (!object.name_span.source) continue;
     const auto [first, fresh] = taken.emplace(object.name, object.name_span);
     if (fresh) continue;
-    if (first->second.source) reader.error("scene.duplicate-name", object.name_span, fmt::format("the name is taken: line {} has it too", first->second.line), "give each object its own name");
+    if (first->second.source)
+      reader.error("scene.duplicate-name", object.name_span, fmt::format("the name is taken: line {} has it too", first->second.line),
+                   "give each object its own name");
     else reader.error("scene.duplicate-name", object.name_span, "this word means the centre of the room", "give the object another name");
   }
   std::map<std::string, int> next;
@@ -171,7 +182,8 @@ void make_names_unique(Reader& reader, std::vector<Object>& objects) {
 std::vector<Object> read_objects(Reader& reader, const Node& node, const RoomFacts& facts) {
   std::vector<Object> objects;
   if (node.kind != NodeKind::list) {
-    reader.wrong_type(node, "`objects`", "a list of objects", node.kind == NodeKind::map ? "start each object with a dash: - sphere: {radius: 0.1}" : "");
+    reader.wrong_type(node, "`objects`", "a list of objects",
+                      node.kind == NodeKind::map ? "start each object with a dash: - sphere: {radius: 0.1}" : "");
     return objects;
   }
   for (const Node& item : node.items) objects.push_back(read_object(reader, item, facts));

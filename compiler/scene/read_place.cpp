@@ -1,4 +1,5 @@
-// Places: {toward: corner 2, distance: 0.3}, {disk: [x, y]}, {polar: [r, 30deg]}, {walls: {1: 0.3, 2: 0.4}}, centre; each with an optional z.
+// Places: {toward: corner 2, distance: 0.3}, {disk: [x, y]}, {polar: [r, 30deg]}, {walls: {1: 0.3, 2: 0.4}}, centre; each with an optional
+// z.
 #include <fmt/format.h>
 
 #include "compiler/scene/parts.h"
@@ -6,7 +7,8 @@
 namespace orbc::scene {
 namespace {
 
-constexpr const char* kPlaces = "centre, {disk: [x, y]}, {polar: [r, 30deg]}, {toward: corner 2, distance: 0.3} or {walls: {1: 0.3, 2: 0.4}}";
+constexpr const char* kPlaces =
+    "centre, {disk: [x, y]}, {polar: [r, 30deg]}, {toward: corner 2, distance: 0.3} or {walls: {1: 0.3, 2: 0.4}}";
 
 // "7" → 7; 0 for what is no wall or corner number at all.
 int positive_integer(std::string_view digits) {
@@ -43,7 +45,8 @@ AtToward read_toward(const Fields& fields, const RoomFacts& facts) {
   toward.number = number;
   const int count = toward.corner ? facts.corners : facts.walls;
   if (facts.walls > 0 && number > count)
-    reader.error(toward.corner ? "scene.no-such-corner" : "scene.no-such-wall", node.span, fmt::format("there is no {} {}", noun, number), numbered(noun, count));
+    reader.error(toward.corner ? "scene.no-such-corner" : "scene.no-such-wall", node.span, fmt::format("there is no {} {}", noun, number),
+                 numbered(noun, count));
   return toward;
 }
 
@@ -54,7 +57,9 @@ AtWalls read_at_walls(Reader& reader, const Node& node, const RoomFacts& facts) 
     return at;
   }
   if (node.keys.size() != 2)
-    reader.error("scene.wrong-count", node.span, fmt::format("`walls` must name two walls with their distances, but names {}", node.keys.size()), "write {walls: {1: 0.3, 2: 0.4}}");
+    reader.error("scene.wrong-count", node.span,
+                 fmt::format("`walls` must name two walls with their distances, but names {}", node.keys.size()),
+                 "write {walls: {1: 0.3, 2: 0.4}}");
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const int wall = read_wall_number(reader, node.keys[i], facts);
     const double distance = reader.number(node.items[i], fmt::format("the distance from wall {}", wall), 0, kDistance);
@@ -77,7 +82,8 @@ int read_wall_number(Reader& reader, const Node& key, const RoomFacts& facts) {
   const int wall = positive_integer(key.text);
   if (wall == 0) {
     const std::string nearest = nearest_word(key.text, {"all"});
-    reader.error("scene.unknown-key", key.span, "a wall is named by its number, counted from 1", nearest.empty() ? numbered("wall", facts.walls) : "did you mean `all`?");
+    reader.error("scene.unknown-key", key.span, "a wall is named by its number, counted from 1",
+                 nearest.empty() ? numbered("wall", facts.walls) : "did you mean `all`?");
   } else if (facts.walls > 0 && wall > facts.walls) {
     reader.error("scene.no-such-wall", key.span, fmt::format("there is no wall {}", wall), numbered("wall", facts.walls));
   }
@@ -88,7 +94,8 @@ Place read_place(Reader& reader, const Node& node, const std::string& what, cons
   Place place;
   place.span = node.span;
   if (node.kind == NodeKind::scalar) {
-    if (node.text != "centre" && node.text != "center") reader.error("scene.bad-place", node.span, fmt::format("{} must be a place", what), std::string("places are ") + kPlaces);
+    if (node.text != "centre" && node.text != "center")
+      reader.error("scene.bad-place", node.span, fmt::format("{} must be a place", what), std::string("places are ") + kPlaces);
     return place;
   }
   if (node.kind != NodeKind::map) {
@@ -108,7 +115,8 @@ Place read_place(Reader& reader, const Node& node, const std::string& what, cons
     place.floor = read_at_walls(reader, *fields.find("walls"), facts);
   }
   if (kind != "toward" && fields.has("distance"))
-    reader.error("scene.conflict", fields.key_span("distance"), "`distance` belongs to `toward`", "write {toward: corner 2, distance: 0.3}");
+    reader.error("scene.conflict", fields.key_span("distance"), "`distance` belongs to `toward`",
+                 "write {toward: corner 2, distance: 0.3}");
   if (fields.has("z")) place.z = fields.number("z", 0, kDistance);
   else if (kind.empty() && fields.is_map() && node.keys.empty())
     reader.error("scene.bad-place", node.span, fmt::format("{} must be a place, but is empty", what), std::string("places are ") + kPlaces);

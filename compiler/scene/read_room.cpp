@@ -33,7 +33,8 @@ std::vector<Cut> read_cuts(Reader& reader, const Node& node, double length, cons
       for (std::size_t i = 0; i < 2; ++i) {
         cut.walls[i] = reader.integer(walls->items[i], "a wall number", 1, 1, 999'999);
         if (facts.walls > 0 && cut.walls[i] > facts.walls)
-          reader.error("scene.no-such-wall", walls->items[i].span, fmt::format("there is no wall {}", cut.walls[i]), fmt::format("this room has walls 1 to {}", facts.walls));
+          reader.error("scene.no-such-wall", walls->items[i].span, fmt::format("there is no wall {}", cut.walls[i]),
+                       fmt::format("this room has walls 1 to {}", facts.walls));
       }
     }
     cuts.push_back(cut);
@@ -57,7 +58,9 @@ std::map<int, double> read_lengths(Reader& reader, const Node& node, const RoomF
 // What means nothing in this room is a warning and left out of the scene: so one furnishing can be tried in many rooms.
 void drop_unused(const Fields& room, const RoomFacts& facts, Shape& shape) {
   const Shape standard;
-  if (!facts.flat) room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius"), shape.scale = standard.scale;
+  if (!facts.flat)
+    room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius"),
+        shape.scale = standard.scale;
   if (!facts.rectangle) room.no_effect("aspect", "only `*2222` may be stretched"), shape.aspect = standard.aspect;
   if (!facts.strip) room.no_effect("length", "it belongs to the strip `**`"), shape.strip_length = standard.strip_length;
   if (shape.kind != ShapeKind::paper) {
@@ -70,7 +73,8 @@ void drop_unused(const Fields& room, const RoomFacts& facts, Shape& shape) {
 Shape read_shape(const Fields& room, const RoomFacts& facts) {
   Shape shape;
   shape.span = room.has("shape") ? room.find("shape")->span : room.node().span;
-  shape.kind = room.choice<ShapeKind>("shape", shape.kind, {{"tangential", ShapeKind::tangential}, {"paper", ShapeKind::paper}, {"lengths", ShapeKind::lengths}});
+  shape.kind = room.choice<ShapeKind>(
+      "shape", shape.kind, {{"tangential", ShapeKind::tangential}, {"paper", ShapeKind::paper}, {"lengths", ShapeKind::lengths}});
   shape.cut = room.number("cut", shape.cut, kLength);
   if (const Node* cuts = room.find("cuts")) shape.cuts = read_cuts(room.reader(), *cuts, shape.cut, facts);
   if (const Node* lengths = room.find("lengths")) shape.lengths = read_lengths(room.reader(), *lengths, facts);
@@ -109,7 +113,8 @@ std::optional<std::array<double, 2>> read_interval(const Fields& fields, const c
   if (!node) return std::nullopt;
   const auto interval = fields.reader().numbers<2>(*node, fmt::format("`{}`", key), {0, 1}, kDistance, wanted);
   if (interval[0] < interval[1]) return interval;
-  fields.reader().error("scene.bad-interval", node->span, fmt::format("`{}` goes from {} to {}: the first must be smaller", key, interval[0], interval[1]), wanted);
+  fields.reader().error("scene.bad-interval", node->span,
+                        fmt::format("`{}` goes from {} to {}: the first must be smaller", key, interval[0], interval[1]), wanted);
   return std::nullopt;
 }
 
@@ -118,7 +123,8 @@ MirrorDraft read_mirror(Reader& reader, const Node& node, bool on_wall) {
   Mirror& mirror = draft.mirror;
   mirror.source = node.span;
   const std::vector<std::string> keys = {"reflectance", "tint", "glow", "span", "height", "frame"};
-  const Fields fields(reader, node, on_wall ? "a mirror" : "a mirror on floor or ceiling", {keys.begin(), keys.begin() + (on_wall ? 6 : 3)});
+  const Fields fields(reader, node, on_wall ? "a mirror" : "a mirror on floor or ceiling",
+                      {keys.begin(), keys.begin() + (on_wall ? 6 : 3)});
   mirror.reflectance = fields.number("reflectance", mirror.reflectance, kUnit);
   mirror.tint = fields.color("tint", mirror.tint);
   mirror.glow = fields.color("glow", mirror.glow);
@@ -168,12 +174,16 @@ void check_mirrors(Reader& reader, const std::vector<MirrorDraft>& mirrors, doub
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     const Mirror& mirror = mirrors[i].mirror;
     if (mirror.height && (*mirror.height)[0] >= height)
-      reader.error("scene.above-ceiling", mirror.source, fmt::format("this mirror starts at height {}, but the room is only {} high", (*mirror.height)[0], height));
+      reader.error("scene.above-ceiling", mirror.source,
+                   fmt::format("this mirror starts at height {}, but the room is only {} high", (*mirror.height)[0], height));
     else if (mirror.height && (*mirror.height)[1] > height)
-      reader.warning("scene.cut-off", mirror.source, fmt::format("this mirror reaches up to {}, but the room is only {} high: it is cut off there", (*mirror.height)[1], height));
+      reader.warning(
+          "scene.cut-off", mirror.source,
+          fmt::format("this mirror reaches up to {}, but the room is only {} high: it is cut off there", (*mirror.height)[1], height));
     for (std::size_t j = 0; j < i; ++j)
       if (const Mirror& other = mirrors[j].mirror; overlap(mirror.span, other.span) && overlap(mirror.height, other.height)) {
-        reader.error("scene.mirrors-overlap", mirror.source, fmt::format("this mirror overlaps the one of line {}", other.source.line), "move one of them: mirrors of a wall may touch, not overlap");
+        reader.error("scene.mirrors-overlap", mirror.source, fmt::format("this mirror overlaps the one of line {}", other.source.line),
+                     "move one of them: mirrors of a wall may touch, not overlap");
         break;
       }
   }
@@ -202,12 +212,15 @@ Wall merged(const WallDraft& all, const WallDraft* own, int number, bool strip) 
   return wall;
 }
 
-void check_wall(Reader& reader, const Node* own, const WallDraft* draft, const Wall& wall, const RoomFacts& facts, int number, double height) {
+void check_wall(Reader& reader, const Node* own, const WallDraft* draft, const Wall& wall, const RoomFacts& facts, int number,
+                double height) {
   if (!own || own->kind != NodeKind::map) return;
   if (facts.strip && number % 2 == 0 && draft->mirrors && !draft->mirrors->empty())
-    reader.error("scene.end-wall-mirror", own->span, fmt::format("wall {} closes the strip `**` and cannot be a mirror", number), "only walls 1 and 3 of `**` are mirrors");
+    reader.error("scene.end-wall-mirror", own->span, fmt::format("wall {} closes the strip `**` and cannot be a mirror", number),
+                 "only walls 1 and 3 of `**` are mirrors");
   if (draft->material && hidden_by_mirror(wall))
-    reader.warning("scene.no-effect", draft->material->span, fmt::format("nothing is seen of the material of wall {}: a mirror covers all of it", number), kShowWall);
+    reader.warning("scene.no-effect", draft->material->span,
+                   fmt::format("nothing is seen of the material of wall {}: a mirror covers all of it", number), kShowWall);
   if (draft->frame && *draft->frame && wall.mirrors.empty())
     reader.warning("scene.no-effect", own->span, fmt::format("wall {} has a frame but no mirror", number), "remove the frame");
   if (draft->mirrors) check_mirrors(reader, *draft->mirrors, height);
@@ -216,7 +229,8 @@ void check_wall(Reader& reader, const Node* own, const WallDraft* draft, const W
 std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& facts, double height) {
   WallDraft all;
   std::map<int, std::pair<const Node*, WallDraft>> own;
-  if (node && node->kind != NodeKind::map) reader.wrong_type(*node, "`walls`", "a map", "its keys are `all` and wall numbers: walls: {all: {…}, 2: {…}}");
+  if (node && node->kind != NodeKind::map)
+    reader.wrong_type(*node, "`walls`", "a map", "its keys are `all` and wall numbers: walls: {all: {…}, 2: {…}}");
   else if (node) {
     for (std::size_t i = 0; i < node->keys.size(); ++i) {
       if (node->keys[i].text == "all") {
@@ -236,7 +250,8 @@ std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& 
     check_wall(reader, own_node, draft, walls.back(), facts, number, height);
   }
   if (all.material && facts.walls > 0 && std::all_of(walls.begin(), walls.end(), hidden_by_mirror))
-    reader.warning("scene.no-effect", all.material->span, "nothing is seen of the material of the walls: mirrors cover all of them", kShowWall);
+    reader.warning("scene.no-effect", all.material->span, "nothing is seen of the material of the walls: mirrors cover all of them",
+                   kShowWall);
   return walls;
 }
 
@@ -244,7 +259,8 @@ std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& 
 const Material& base_of_surface(const Fields& fields, const Surface& fallback) {
   static const std::vector<std::string> kKept = {"second", "cell", "kind", "roughness", "index", "emission"};
   static const Material kPlain;
-  const bool kept = std::all_of(fields.node().keys.begin(), fields.node().keys.end(), [](const Node& key) { return std::find(kKept.begin(), kKept.end(), key.text) != kKept.end(); });
+  const bool kept = std::all_of(fields.node().keys.begin(), fields.node().keys.end(),
+                                [](const Node& key) { return std::find(kKept.begin(), kKept.end(), key.text) != kKept.end(); });
   return kept ? fallback.material : kPlain;
 }
 
@@ -269,7 +285,8 @@ Surface read_surface(Reader& reader, const Node& node, const std::string& what, 
 RoomSpec read_room(Reader& reader, const Node& node, const RoomFacts& facts) {
   RoomSpec room;
   room.span = node.span;
-  const Fields fields(reader, node, "the room", {"shape", "cut", "cuts", "lengths", "scale", "aspect", "length", "height", "floor", "ceiling", "walls"});
+  const Fields fields(reader, node, "the room",
+                      {"shape", "cut", "cuts", "lengths", "scale", "aspect", "length", "height", "floor", "ceiling", "walls"});
   room.shape = read_shape(fields, facts);
   room.height = fields.number("height", room.height, kLength);
   room.floor = default_floor();

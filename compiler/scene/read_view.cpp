@@ -20,7 +20,8 @@ void warn_unused_keys(const Fields& fields, LampKind kind) {
 Lamp read_lamp(Reader& reader, const Node& node, const RoomFacts& facts) {
   Lamp lamp;
   lamp.span = node.span;
-  const Fields fields(reader, node, "a light", {"kind", "at", "to", "radius", "size", "power", "color", "temperature", "cone", "visible", "falloff"});
+  const Fields fields(reader, node, "a light",
+                      {"kind", "at", "to", "radius", "size", "power", "color", "temperature", "cone", "visible", "falloff"});
   lamp.kind = fields.choice<LampKind>("kind", lamp.kind,
                                       {{"point", LampKind::point}, {"sphere", LampKind::sphere}, {"rectangle", LampKind::rectangle},
                                        {"disk", LampKind::disk}, {"tube", LampKind::tube}, {"spot", LampKind::spot}});
@@ -29,13 +30,16 @@ Lamp read_lamp(Reader& reader, const Node& node, const RoomFacts& facts) {
   if (const Node* to = fields.find("to")) lamp.to = read_place(reader, *to, "`to`", facts);
   else if (lamp.kind == LampKind::tube) fields.require("to", "a tube reaches from `at` to `to`");
   lamp.radius = fields.number("radius", lamp.radius, kLength);
-  if (const Node* size = fields.find("size")) lamp.size = reader.numbers<2>(*size, "`size`", lamp.size, kLength, "a list of two lengths: [width, depth]");
+  if (const Node* size = fields.find("size"))
+    lamp.size = reader.numbers<2>(*size, "`size`", lamp.size, kLength, "a list of two lengths: [width, depth]");
   lamp.power = fields.number("power", lamp.power, {0, 1e9, true});
-  if (fields.only_one_of({"color", "temperature"}) == "temperature") lamp.color = color_of_temperature(fields.number("temperature", 6500, {1667, 25000}));
+  if (fields.only_one_of({"color", "temperature"}) == "temperature")
+    lamp.color = color_of_temperature(fields.number("temperature", 6500, {1667, 25000}));
   else lamp.color = fields.color("color", lamp.color);
   lamp.cone = fields.angle("cone", lamp.cone, {0, 180, true});
   lamp.visible = fields.boolean("visible", lamp.visible);
-  lamp.falloff = fields.choice<Falloff>("falloff", lamp.falloff, {{"geodesic", Falloff::geodesic}, {"inverse_square", Falloff::inverse_square}, {"none", Falloff::none}});
+  lamp.falloff = fields.choice<Falloff>(
+      "falloff", lamp.falloff, {{"geodesic", Falloff::geodesic}, {"inverse_square", Falloff::inverse_square}, {"none", Falloff::none}});
   warn_unused_keys(fields, lamp.kind);
   return lamp;
 }
@@ -44,7 +48,8 @@ std::array<int, 2> read_picture_size(Reader& reader, const Node& node, std::arra
   if (!reader.list(node, "`size`", 2, "width and height in pixels: [800, 600]")) return size;
   for (std::size_t i = 0; i < 2; ++i) size[i] = reader.integer(node.items[i], i == 0 ? "the width" : "the height", size[i], 1, kMaxPixels);
   if (static_cast<double>(size[0]) * size[1] > kMaxPictureArea)
-    reader.error("scene.picture-too-large", node.span, fmt::format("a picture of {}×{} pixels is too large", size[0], size[1]), fmt::format("at most {} pixels in all, 16384×16384", static_cast<long>(kMaxPictureArea)));
+    reader.error("scene.picture-too-large", node.span, fmt::format("a picture of {}×{} pixels is too large", size[0], size[1]),
+                 fmt::format("at most {} pixels in all, 16384×16384", static_cast<long>(kMaxPictureArea)));
   return size;
 }
 
@@ -68,7 +73,8 @@ std::variant<LookAtObject, Place, LookDirection> read_look_at(Reader& reader, co
 std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& facts) {
   std::vector<Lamp> lamps;
   if (node.kind != NodeKind::list) {
-    reader.wrong_type(node, "`lights`", "a list of lights", node.kind == NodeKind::map ? "start each light with a dash: - {kind: sphere, at: {…}}" : "");
+    reader.wrong_type(node, "`lights`", "a list of lights",
+                      node.kind == NodeKind::map ? "start each light with a dash: - {kind: sphere, at: {…}}" : "");
     return lamps;
   }
   for (const Node& item : node.items) lamps.push_back(read_lamp(reader, item, facts));
@@ -80,8 +86,9 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
   camera.span = camera.place.span = node.span;
   const Fields fields(reader, node, "the camera", {"at", "look_at", "fov", "size", "projection"});
   if (const Node* at = fields.find("at")) camera.place = read_place(reader, *at, "`at`", facts);
-  camera.projection = fields.choice<Projection>("projection", camera.projection,
-                                                {{"perspective", Projection::perspective}, {"panorama", Projection::panorama}, {"cylinder", Projection::cylinder}});
+  camera.projection = fields.choice<Projection>(
+      "projection", camera.projection,
+      {{"perspective", Projection::perspective}, {"panorama", Projection::panorama}, {"cylinder", Projection::cylinder}});
   const bool perspective = camera.projection == Projection::perspective;
   if (const Node* fov = fields.find("fov")) camera.fov_span = fov->span;
   camera.fov = fields.angle("fov", camera.fov, perspective ? Range{1, 170} : Range{1, 360});
@@ -89,7 +96,8 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
   if (const Node* size = fields.find("size")) camera.size_span = size->span, camera.size = read_picture_size(reader, *size, camera.size);
   const Node* look_at = fields.find("look_at");
   if (look_at) camera.look_at = {read_look_at(reader, *look_at, facts), look_at->span};
-  else if (std::holds_alternative<AtCentre>(camera.place.floor)) camera.look_at.value = LookDirection{};  // from the centre one cannot look at the centre
+  // From the centre one cannot look at the centre
+  else if (std::holds_alternative<AtCentre>(camera.place.floor)) camera.look_at.value = LookDirection{};
   else camera.look_at.value = Place{};
   return camera;
 }
@@ -98,7 +106,8 @@ BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator) {
   BakeSpec bake;
   const Fields fields(reader, node, "the bake", {"atlas", "lights", "bounces", "mirrors", "samples", "quality", "seed"});
   bake.lights = fields.choice<LightsBy>("lights", bake.lights, {{"baked", LightsBy::baked}, {"native", LightsBy::native}});
-  bake.atlas = fields.choice<AtlasDepth>("atlas", bake.atlas, {{"8", AtlasDepth::eight}, {"16", AtlasDepth::sixteen}, {"exr", AtlasDepth::exr}});
+  bake.atlas =
+      fields.choice<AtlasDepth>("atlas", bake.atlas, {{"8", AtlasDepth::eight}, {"16", AtlasDepth::sixteen}, {"exr", AtlasDepth::exr}});
   bake.bounces = fields.integer("bounces", bake.bounces, 0, 64);
   bake.mirrors = fields.integer("mirrors", bake.mirrors, 0, 12);
   if (const Node* mirrors = fields.find("mirrors")) bake.mirrors_span = mirrors->span;

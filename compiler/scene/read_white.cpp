@@ -12,10 +12,16 @@ Color divided(const Color& c, const Color& by) { return {c.r / by.r, c.g / by.g,
 // What glows by itself is a light too, and so is a scene whose surfaces pass light on.
 bool has_light(const Scene& scene) {
   const auto glows = [](const Material& material) { return material.kind == MaterialKind::emissive; };
-  const auto mirror_glows = [&](const Mirror& mirror) { return !(mirror.glow == Color{}) || (mirror.frame && glows(mirror.frame->material)); };
-  const auto surface_glows = [&](const Surface& surface) { return glows(surface.material) || (surface.mirror && mirror_glows(*surface.mirror)); };
-  return !scene.lamps.empty() || scene.integrator == Integrator::path || surface_glows(scene.room.floor) || surface_glows(scene.room.ceiling) ||
-         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) { return object.material && glows(*object.material); }) ||
+  const auto mirror_glows = [&](const Mirror& mirror) {
+    return !(mirror.glow == Color{}) || (mirror.frame && glows(mirror.frame->material));
+  };
+  const auto surface_glows = [&](const Surface& surface) {
+    return glows(surface.material) || (surface.mirror && mirror_glows(*surface.mirror));
+  };
+  return !scene.lamps.empty() || scene.integrator == Integrator::path || surface_glows(scene.room.floor) ||
+         surface_glows(scene.room.ceiling) ||
+         std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [&](const Object& object) { return object.material && glows(*object.material); }) ||
          std::any_of(scene.room.walls.begin(), scene.room.walls.end(), [&](const Wall& wall) {
            return glows(wall.material) || std::any_of(wall.mirrors.begin(), wall.mirrors.end(), mirror_glows);
          });

@@ -33,30 +33,39 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1)
-      refuse(mark, "scene.many-documents", "a second YAML document starts here", "a scene is one document: remove the line `---` or `...`, or put the second scene into its own file");
+      refuse(mark, "scene.many-documents", "a second YAML document starts here",
+             "a scene is one document: remove the line `---` or `...`, or put the second scene into its own file");
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { put(Node{}, mark); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { throw Refusal{alias(locator_, static_cast<std::size_t>(mark.pos))}; }
   void OnAnchor(const YAML::Mark& mark, const std::string&) override {
-    refuse(mark, "scene.alias", "anchors (&name) and references (*name) are not part of a scene file", "write the value out; `walls: {all: …}` shares settings between walls");
+    refuse(mark, "scene.alias", "anchors (&name) and references (*name) are not part of a scene file",
+           "write the value out; `walls: {all: …}` shares settings between walls");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
     refuse_tag(mark, tag);
-    if (!locator_.quote_is_closed(mark.pos)) refuse(mark, "scene.syntax", "this quote is not closed", "end the text with the quote it starts with");
+    if (!locator_.quote_is_closed(mark.pos))
+      refuse(mark, "scene.syntax", "this quote is not closed", "end the text with the quote it starts with");
     Node node;
     node.kind = NodeKind::scalar;
     node.text = value;
     node.quoted = tag == "!";
     put(std::move(node), mark);
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, YAML::EmitterStyle::value) override { open(NodeKind::list, mark, tag); }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(NodeKind::list, mark, tag);
+  }
   void OnSequenceEnd() override { close(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, YAML::EmitterStyle::value) override { open(NodeKind::map, mark, tag); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    open(NodeKind::map, mark, tag);
+  }
   void OnMapEnd() override { close(); }
 
   // The innermost list or map that is still open.
-  [[nodiscard]] std::optional<SourceSpan> innermost() const { return levels_.empty() ? std::nullopt : std::optional(levels_.back().node.span); }
+  [[nodiscard]] std::optional<SourceSpan> innermost() const {
+    return levels_.empty() ? std::nullopt : std::optional(levels_.back().node.span);
+  }
 
   Document document;
 
@@ -72,19 +81,22 @@ class TreeBuilder final : public YAML::EventHandler {
     throw Refusal{make_error(code, std::move(message), std::move(hint), locator_.token_at(mark.pos))};
   }
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
-    if (!tag.empty() && tag != "?" && tag != "!") refuse(mark, "scene.tag", "YAML tags (!name) are not part of a scene file", "remove the tag");
+    if (!tag.empty() && tag != "?" && tag != "!")
+      refuse(mark, "scene.tag", "YAML tags (!name) are not part of a scene file", "remove the tag");
   }
 
   void count(const YAML::Mark& mark) {
     if (++values_ > limits_.values)
-      refuse(mark, "scene.too-many-values", fmt::format("the scene has more than {} values", limits_.values), "put big data into mesh files");
+      refuse(mark, "scene.too-many-values", fmt::format("the scene has more than {} values", limits_.values),
+             "put big data into mesh files");
   }
 
   void open(NodeKind kind, const YAML::Mark& mark, const std::string& tag) {
     refuse_tag(mark, tag);
     count(mark);
     if (levels_.size() >= limits_.depth)
-      refuse(mark, "scene.too-deep", fmt::format("more than {} lists and maps inside each other", limits_.depth), "no part of a scene nests so deep: is a bracket missing?");
+      refuse(mark, "scene.too-deep", fmt::format("more than {} lists and maps inside each other", limits_.depth),
+             "no part of a scene nests so deep: is a bracket missing?");
     Level level;
     level.node.kind = kind;
     level.node.span = locator_.at(mark.pos);
@@ -122,7 +134,8 @@ class TreeBuilder final : public YAML::EventHandler {
     if (value.kind == NodeKind::nothing) value.span = level.key.span;  // yaml-cpp marks the next token, which may be lines below
     const auto [first, fresh] = level.seen.emplace(level.key.text, level.key.span);
     if (!fresh) {
-      document.faults.push_back(make_error("scene.duplicate-key", fmt::format("`{}` is given twice here, first in line {}", level.key.text, first->second.line),
+      document.faults.push_back(make_error("scene.duplicate-key",
+                                           fmt::format("`{}` is given twice here, first in line {}", level.key.text, first->second.line),
                                            "keep one of the two", level.key.span));
       return;
     }
@@ -177,19 +190,26 @@ bool follows_quote(std::string_view text, std::size_t offset) {
 Diagnostic unclosed(const YAML::ParserException& exception, const Locator& locator, const std::optional<SourceSpan>& opened) {
   const bool map = exception.msg == YAML::ErrorMsg::END_OF_MAP_FLOW;
   const SourceSpan noticed = locator.at(static_cast<std::size_t>(exception.mark.pos));
-  return make_error("scene.syntax", fmt::format("this {} is not closed, or a comma is missing; noticed in line {}", map ? "{" : "[", noticed.line),
-                    fmt::format("write the missing {} or comma; a # starts a comment, so colours like \"#ffeedd\" need quotes", map ? "}" : "]"), opened ? *opened : noticed);
+  return make_error(
+      "scene.syntax", fmt::format("this {} is not closed, or a comma is missing; noticed in line {}", map ? "{" : "[", noticed.line),
+      fmt::format("write the missing {} or comma; a # starts a comment, so colours like \"#ffeedd\" need quotes", map ? "}" : "]"),
+      opened ? *opened : noticed);
 }
 
 Diagnostic translate(const YAML::ParserException& exception, const Locator& locator, const std::optional<SourceSpan>& opened) {
   const std::size_t offset = exception.mark.is_null() ? 0 : static_cast<std::size_t>(exception.mark.pos);
-  if (exception.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR || exception.msg == YAML::ErrorMsg::ALIAS_NOT_FOUND || exception.msg == YAML::ErrorMsg::CHAR_IN_ALIAS)
-    return alias(locator, offset > 0 && locator.text().substr(offset - 1, 1) == "*" && locator.text().substr(offset, 1) != "*" ? offset - 1 : offset);
+  if (exception.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR || exception.msg == YAML::ErrorMsg::ALIAS_NOT_FOUND ||
+      exception.msg == YAML::ErrorMsg::CHAR_IN_ALIAS)
+    return alias(locator, offset > 0 && locator.text().substr(offset - 1, 1) == "*" && locator.text().substr(offset, 1) != "*" ? offset - 1
+                                                                                                                               : offset);
   if (const auto tab = tab_in_indentation(locator.text(), offset))
-    return make_error("scene.tab", "a tab stands in the indentation", "YAML indents with spaces: use two spaces for each level", locator.at(*tab));
-  if (exception.msg == YAML::ErrorMsg::END_OF_MAP_FLOW || exception.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW) return unclosed(exception, locator, opened);
+    return make_error("scene.tab", "a tab stands in the indentation", "YAML indents with spaces: use two spaces for each level",
+                      locator.at(*tab));
+  if (exception.msg == YAML::ErrorMsg::END_OF_MAP_FLOW || exception.msg == YAML::ErrorMsg::END_OF_SEQ_FLOW)
+    return unclosed(exception, locator, opened);
   if (exception.msg == YAML::ErrorMsg::END_OF_MAP && follows_quote(locator.text(), offset))
-    return make_error("scene.syntax", "text goes on behind the closing quote", "put the whole text into one pair of quotes", locator.at(offset));
+    return make_error("scene.syntax", "text goes on behind the closing quote", "put the whole text into one pair of quotes",
+                      locator.at(offset));
   return make_error("scene.syntax", "this is not YAML: " + exception.msg, hint_for(exception.msg), locator.at(offset));
 }
 
@@ -203,7 +223,8 @@ const Node* Node::find(std::string_view key) const {
 
 Result<Document> parse_document(const std::shared_ptr<const SourceText>& source, const DocumentLimits& limits) {
   if (source->text.size() > limits.bytes)
-    return make_error("scene.too-large", fmt::format("the file has {} bytes, more than a scene may have ({})", source->text.size(), limits.bytes),
+    return make_error("scene.too-large",
+                      fmt::format("the file has {} bytes, more than a scene may have ({})", source->text.size(), limits.bytes),
                       "put big data into mesh files", {source, 0, 0, 0});
   const Locator locator(source);
   if (auto bad = locator.first_bad_character()) return std::move(*bad);
@@ -221,7 +242,8 @@ Result<Document> parse_document(const std::shared_ptr<const SourceText>& source,
     return make_error("scene.syntax", "this is not YAML: " + exception.msg, "", {source, 0, 0, 0});
   }
   if (builder.document.root.kind == NodeKind::nothing)
-    return make_error("scene.empty", "the scene is empty", "the smallest scene is the two lines `orbc: 1` and `orbifold: \"*22222\"`", {source, 0, 0, 0});
+    return make_error("scene.empty", "the scene is empty", "the smallest scene is the two lines `orbc: 1` and `orbifold: \"*22222\"`",
+                      {source, 0, 0, 0});
   return std::move(builder.document);
 }
 

@@ -60,7 +60,8 @@ struct Material {
   double index = 1.5;               ///< refractive index of glass
   double emission = 1;              ///< emissive: radiance = emission × color
   Sourced<std::string> texture;
-  Sourced<std::string> opacity_mask;  ///< a picture like `texture`: where it is less opaque (or, without alpha, darker) than `cutoff` there is no surface; empty: none
+  /// A picture like `texture`: where it is less opaque (or, without alpha, darker) than `cutoff` there is no surface; empty: none
+  Sourced<std::string> opacity_mask;
   double cutoff = 0.5;
   SourceSpan span;
 };
@@ -110,7 +111,8 @@ struct RoomSpec {
 struct AtCentre {};
 struct AtDisk { std::complex<double> z; };                       ///< disk chart
 struct AtPolar { double r = 0; Angle angle; };                   ///< intrinsic distance and direction from the centre
-struct AtToward { bool corner = true; int number = 1; double distance = 0; };  ///< `distance` from the centre towards corner or the middle of wall `number`
+/// `distance` from the centre towards corner or the middle of wall `number`
+struct AtToward { bool corner = true; int number = 1; double distance = 0; };
 struct AtWalls { std::array<int, 2> walls{}; std::array<double, 2> distances{}; };  ///< given distances from two walls
 struct Place {
   std::variant<AtCentre, AtDisk, AtPolar, AtToward, AtWalls> floor;
@@ -176,7 +178,8 @@ struct BakeSpec {
   int bounces = 64;                 ///< `path`: how often matte surfaces may pass light on; the tracer keeps to it too
   int mirrors = 2;                  ///< mirrors on walls, floor and ceiling that the light of a lamp is followed over, in both roads
   SourceSpan mirrors_span;
-  std::optional<int> samples;       ///< `path`: directions asked at a point of the baked light, and for every 32 of them a path for each sample of the
+  /// `path`: directions asked at a point of the baked light, and for every 32 of them a path for each sample of the
+  std::optional<int> samples;
                                     ///< tracer; missing = the quality's
   BakeQuality quality = BakeQuality::normal;
   int seed = 1;                     ///< of the tracer's random numbers
@@ -198,7 +201,8 @@ struct Camera {
 struct CoverSpec {
   int max_bounces = 12;
   double min_weight = 0;            ///< paths whose weight (largest channel) is below it end
-  double min_pixels = 0;            ///< exports only: copies smaller than this in the picture are merged: a panel of their mean colour stands for them
+  /// Exports only: copies smaller than this in the picture are merged: a panel of their mean colour stands for them
+  double min_pixels = 0;
   Color background{0, 0, 0};        ///< what is seen where a path ends at a mirror
   bool background_expected = false; ///< instead of it the colour expected beyond, times the path's weight
 };

@@ -83,7 +83,8 @@ std::string aligned(const std::string& text) {
     std::string line = text.substr(begin, end - begin);
     const std::size_t mark = line.find("  # ", std::min(line.size(), line.find_first_not_of(' ')));
     const std::size_t code_end = mark == std::string::npos ? mark : line.find_last_not_of(' ', mark);
-    if (code_end != std::string::npos && code_end + 1 < kColumn) line = line.substr(0, code_end + 1) + std::string(kColumn - code_end - 1, ' ') + line.substr(line.find('#', mark));
+    if (code_end != std::string::npos && code_end + 1 < kColumn)
+      line = line.substr(0, code_end + 1) + std::string(kColumn - code_end - 1, ' ') + line.substr(line.find('#', mark));
     all += line + "\n";
     begin = end + 1;
   }
@@ -98,13 +99,15 @@ std::string starter_scene(std::string_view notation, int walls, double inradius)
   const auto orbifold = notation::parse(notation, {{}, true});
   const int bounces = orbifold ? default_max_bounces(*orbifold) : 12;
   const bool real = notation.find_first_of("/.") != std::string_view::npos;
-  return aligned(fmt::format(fmt::runtime(kText), arg("notation", quoted(notation)), arg("about", about(notation)), arg("allow", real ? "\nallow_non_orbifold: true" : ""),
-                     arg("height", shown(1.5 * r)), arg("cell", shown(0.25 * r)), arg("frame", shown(0.06 * r)), arg("wall_hint", wall_hint(notation, walls)),
-                     arg("span_from", shown(0.2 * r)), arg("span_to", shown(0.8 * r)), arg("mirror_from", shown(0.3 * r)), arg("mirror_to", shown(1.2 * r)),
-                     arg("knot_radius", shown(0.18 * r)), arg("knot_tube", shown(0.05 * r)), arg("knot_at", shown(0.25 * r)),
-                     arg("sphere_radius", shown(0.14 * r)), arg("sphere_at", shown(0.5 * r)), arg("mesh_size", shown(0.4 * r)),
-                     arg("lamp_z", shown(1.3 * r)), arg("lamp_radius", shown(0.07 * r)), arg("power", shown(20 * r * r)),
-                     arg("eye_at", shown(0.62 * r)), arg("eye_z", shown(0.7 * r)), arg("bounces", bounces)));
+  return aligned(fmt::format(fmt::runtime(kText), arg("notation", quoted(notation)), arg("about", about(notation)),
+                             arg("allow", real ? "\nallow_non_orbifold: true" : ""), arg("height", shown(1.5 * r)),
+                             arg("cell", shown(0.25 * r)), arg("frame", shown(0.06 * r)), arg("wall_hint", wall_hint(notation, walls)),
+                             arg("span_from", shown(0.2 * r)), arg("span_to", shown(0.8 * r)), arg("mirror_from", shown(0.3 * r)),
+                             arg("mirror_to", shown(1.2 * r)), arg("knot_radius", shown(0.18 * r)), arg("knot_tube", shown(0.05 * r)),
+                             arg("knot_at", shown(0.25 * r)), arg("sphere_radius", shown(0.14 * r)), arg("sphere_at", shown(0.5 * r)),
+                             arg("mesh_size", shown(0.4 * r)), arg("lamp_z", shown(1.3 * r)), arg("lamp_radius", shown(0.07 * r)),
+                             arg("power", shown(20 * r * r)), arg("eye_at", shown(0.62 * r)), arg("eye_z", shown(0.7 * r)),
+                             arg("bounces", bounces)));
 }
 
 }  // namespace orbc::scene

@@ -32,7 +32,9 @@ std::string described(const Node& node) {
   return node.quoted ? "the text " + shown : number_of(node) ? shortened(node.text) : shown;
 }
 
-std::string keys_of(const std::vector<std::string>& known) { return fmt::format("{} {}", known.size() == 1 ? "its only key is" : "its keys are", listed(known, "and")); }
+std::string keys_of(const std::vector<std::string>& known) {
+  return fmt::format("{} {}", known.size() == 1 ? "its only key is" : "its keys are", listed(known, "and"));
+}
 
 bool is_truth_value(std::string_view text) {
   return text == "true" || text == "True" || text == "TRUE" || text == "false" || text == "False" || text == "FALSE";
@@ -46,7 +48,8 @@ std::optional<double> parse_number(std::string_view text) {
   if (text == ".nan" || text == ".NaN" || text == ".NAN") return std::numeric_limits<double>::quiet_NaN();
   if (unsigned_text.empty() || unsigned_text.find_first_not_of("0123456789.eE+-") != std::string_view::npos) return std::nullopt;
   const bool digit_first = unsigned_text[0] >= '0' && unsigned_text[0] <= '9';
-  if (!digit_first && !(unsigned_text[0] == '.' && unsigned_text.size() > 1 && unsigned_text[1] >= '0' && unsigned_text[1] <= '9')) return std::nullopt;
+  if (!digit_first && !(unsigned_text[0] == '.' && unsigned_text.size() > 1 && unsigned_text[1] >= '0' && unsigned_text[1] <= '9'))
+    return std::nullopt;
   double value = 0;
   const auto [end, error] = std::from_chars(unsigned_text.data(), unsigned_text.data() + unsigned_text.size(), value);
   if (end != unsigned_text.data() + unsigned_text.size()) return std::nullopt;
@@ -67,7 +70,8 @@ std::optional<double> number_of(const Node& node) {
 
 std::string listed(const std::vector<std::string>& words, std::string_view last) {
   std::string all;
-  for (std::size_t i = 0; i < words.size(); ++i) all += i == 0 ? words[i] : i + 1 == words.size() ? fmt::format(" {} {}", last, words[i]) : fmt::format(", {}", words[i]);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    all += i == 0 ? words[i] : i + 1 == words.size() ? fmt::format(" {} {}", last, words[i]) : fmt::format(", {}", words[i]);
   return all;
 }
 
@@ -77,7 +81,8 @@ bool contains(const Range& range, double value) {
 
 std::string to_string(const Range& range) {
   if (!range.open_min && !range.open_max) return fmt::format("from {} to {}", range.min, range.max);
-  return fmt::format("{} {} and {} {}", range.open_min ? "greater than" : "at least", range.min, range.open_max ? "less than" : "at most", range.max);
+  return fmt::format("{} {} and {} {}", range.open_min ? "greater than" : "at least", range.min, range.open_max ? "less than" : "at most",
+                     range.max);
 }
 
 // ---- Reader ---------------------------------------------------------------------------------------------------------------
@@ -110,7 +115,8 @@ double Reader::number(const Node& node, std::string_view what, double fallback, 
     return fallback;
   }
   if (!std::isfinite(*value)) {
-    error("scene.not-finite", node.span, fmt::format("{} must be a finite number, but is {}", what, node.text.size() > 40 ? "too large" : node.text),
+    error("scene.not-finite", node.span,
+          fmt::format("{} must be a finite number, but is {}", what, node.text.size() > 40 ? "too large" : node.text),
           "allowed is a number " + to_string(range));
     return fallback;
   }
@@ -182,7 +188,8 @@ Angle Reader::angle(const Node& node, std::string_view what, const Angle& fallba
   }
   if (!value) {
     if (node.kind == NodeKind::scalar)
-      error("scene.bad-angle", node.span, fmt::format("{} must be an angle, but is {}", what, described(node)), "write 30deg or 0.5rad; a plain number means degrees");
+      error("scene.bad-angle", node.span, fmt::format("{} must be an angle, but is {}", what, described(node)),
+            "write 30deg or 0.5rad; a plain number means degrees");
     else wrong_type(node, what, "an angle", "write 30deg or 0.5rad; a plain number means degrees");
     return fallback;
   }
@@ -192,7 +199,8 @@ Angle Reader::angle(const Node& node, std::string_view what, const Angle& fallba
     return fallback;
   }
   if (!contains(degrees, radians ? angle.degrees() : *value)) {
-    error("scene.angle-out-of-range", node.span, fmt::format("{} must be {} degrees, but is {}", what, to_string(degrees), described(node)));
+    error("scene.angle-out-of-range", node.span,
+          fmt::format("{} must be {} degrees, but is {}", what, to_string(degrees), described(node)));
     return fallback;
   }
   return angle;
@@ -210,7 +218,8 @@ bool Reader::list(const Node& node, std::string_view what, std::size_t count, st
 
 // ---- Fields ---------------------------------------------------------------------------------------------------------------
 
-Fields::Fields(Reader& reader, const Node& node, std::string what, std::vector<std::string> known) : reader_(reader), node_(node), what_(std::move(what)) {
+Fields::Fields(Reader& reader, const Node& node, std::string what, std::vector<std::string> known)
+    : reader_(reader), node_(node), what_(std::move(what)) {
   if (node.kind != NodeKind::map) {
     reader.wrong_type(node, what_, "a map of keys and values", node.kind == NodeKind::nothing ? "" : keys_of(known));
     return;
@@ -232,7 +241,8 @@ SourceSpan Fields::key_span(std::string_view key) const {
 }
 
 void Fields::require(std::string_view key, std::string hint) const {
-  if (is_map() && !has(key)) reader_.error("scene.missing-key", node_.span, fmt::format("{} needs the key `{}`", what_, key), std::move(hint));
+  if (is_map() && !has(key))
+    reader_.error("scene.missing-key", node_.span, fmt::format("{} needs the key `{}`", what_, key), std::move(hint));
 }
 
 std::string Fields::only_one_of(const std::vector<std::string>& keys) const {
@@ -240,7 +250,9 @@ std::string Fields::only_one_of(const std::vector<std::string>& keys) const {
   for (const Node& key : node_.keys) {
     if (std::find(keys.begin(), keys.end(), key.text) == keys.end()) continue;
     if (first.empty()) first = key.text;
-    else reader_.error("scene.conflict", key.span, fmt::format("{} has `{}` already, `{}` cannot stand beside it", what_, first, key.text), "keep one of the two");
+    else
+      reader_.error("scene.conflict", key.span, fmt::format("{} has `{}` already, `{}` cannot stand beside it", what_, first, key.text),
+                    "keep one of the two");
   }
   return first;
 }

@@ -49,7 +49,8 @@ class Reader {
   [[nodiscard]] bool list(const Node& node, std::string_view what, std::size_t count, std::string_view wanted);
 
   template <std::size_t N>
-  [[nodiscard]] std::array<double, N> numbers(const Node& node, std::string_view what, const std::array<double, N>& fallback, const Range& range, std::string_view wanted) {
+  [[nodiscard]] std::array<double, N> numbers(const Node& node, std::string_view what, const std::array<double, N>& fallback,
+                                              const Range& range, std::string_view wanted) {
     std::array<double, N> values = fallback;
     if (!list(node, what, N, wanted)) return fallback;
     for (std::size_t i = 0; i < N; ++i) values[i] = number(node.items[i], what, fallback[i], range);

@@ -30,7 +30,8 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
       }
     }
     if (first >= 0) {
-      const double s = space == Space::spherical   ? std::fabs(largest) == kEndless ? (largest > 0 ? 0 : std::numbers::pi) : arc_of_circle(largest, 1)
+      const double s = space == Space::spherical
+                           ? std::fabs(largest) == kEndless ? (largest > 0 ? 0 : std::numbers::pi) : arc_of_circle(largest, 1)
                        : space == Space::euclidean ? 1 / largest
                        : largest == kEndless       ? 0
                                                    : 0.5 * std::log((largest + 1) / (largest - 1));

@@ -1,6 +1,7 @@
-// Builds the trees: binned SAH (Wald, On fast construction of SAH-based bounding volume hierarchies, 2007) whose cost counts blocks of eight
-// triangles, not triangles; of a node's open ranges the one with the largest area is split until there are eight. The top is split on the
-// calling thread with parallel binning; what is below 1/64 of it becomes a task, written by index, so the tree is the same for any threads.
+// Builds the trees: binned SAH (Wald, On fast construction of SAH-based bounding volume hierarchies, 2007) whose cost counts blocks of
+// eight triangles, not triangles; of a node's open ranges the one with the largest area is split until there are eight. The top is split on
+// the calling thread with parallel binning; what is below 1/64 of it becomes a task, written by index, so the tree is the same for any
+// threads.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,7 +37,8 @@ struct Range {
   std::size_t size() const { return end - begin; }
 };
 
-// Outwards, and never to a subnormal number: the floor's plane z = 0 would become one, and each node test would wait a hundred cycles for it.
+// Outwards, and never to a subnormal number: the floor's plane z = 0 would become one, and each node test would wait a hundred cycles for
+// it.
 constexpr float kLeast = 1e-30f;
 float down(double v) {
   const float f = std::nextafter(static_cast<float>(v), -kNever);
@@ -65,7 +67,9 @@ struct Binning {
       scale[a] = width > 0 ? 0.9999f * kBins / width : 0;
     }
   }
-  int of(const Prim& p, int axis) const { return std::min(kBins - 1, std::max(0, static_cast<int>((p.centre(axis) - base[axis]) * scale[axis]))); }
+  int of(const Prim& p, int axis) const {
+    return std::min(kBins - 1, std::max(0, static_cast<int>((p.centre(axis) - base[axis]) * scale[axis])));
+  }
 };
 
 void fill(const std::vector<Prim>& prims, std::size_t begin, std::size_t end, const Binning& binning, Bins bins[3]) {
@@ -310,7 +314,8 @@ void build_tree(const Soup& soup, const std::vector<std::uint32_t>& triangles, c
   std::vector<Prim> prims(triangles.size());
   constexpr std::size_t kChunk = 1 << 14;
   execute((triangles.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min(triangles.size(), (chunk + 1) * kChunk); ++i) prims[i] = prim_of(soup, chart, triangles[i]);
+    for (std::size_t i = chunk * kChunk; i < std::min(triangles.size(), (chunk + 1) * kChunk); ++i)
+      prims[i] = prim_of(soup, chart, triangles[i]);
   });
   const Builder builder{soup, chart, prims};
   Tree top;

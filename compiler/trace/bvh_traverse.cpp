@@ -35,7 +35,8 @@ HWY_INLINE float t_of(const Block8& block, int lane, const ChartRay& ray, const 
   return t + 2 * ray.t_error + 4e-6f * std::fabs(t);
 }
 
-/// A child on the stack, nearest first when compared as a number: where the ray enters it (as an integer of the same order) and which it is.
+/// A child on the stack, nearest first when compared as a number: where the ray enters it (as an integer of the same order) and which it
+/// is.
 using Entry = std::uint64_t;
 
 HWY_INLINE std::uint32_t order_of(float t) {
@@ -62,14 +63,15 @@ struct InDouble {
   BvhHit before;                    ///< the best before anything was tried in double
 };
 
-/// The walk of one ray through one tree. What it finds does not depend on the order in which nodes and blocks come, nor on where it starts: rays
-/// meet the same, bit by bit, alone and in a fan.
+/// The walk of one ray through one tree. What it finds does not depend on the order in which nodes and blocks come, nor on where it starts:
+/// rays meet the same, bit by bit, alone and in a fan.
 template <Space kSpace, int kTerms, bool kAny, bool kCount>
 struct Walker {
   ChartRay& ray;
   const Ray& source;
   BvhHit& best;
-  Pending& pending;                 ///< surely met: in double only when the walk is over, or to compare when another triangle comes too near
+  /// Surely met: in double only when the walk is over, or to compare when another triangle comes too near
+  Pending& pending;
   InDouble& in_double;
   Entry* const stack;
   bool exact = false, found = false;
@@ -122,8 +124,9 @@ struct Walker {
     const Vertex* vertices = walk.soup->vertices.data();
     const Vertex* const corners[3] = {vertices + v[0], vertices + v[1], vertices + v[2]};
     const double end = found ? std::nextafter(best.t, kEndless) : best.t;
-    const TriangleHit hit = sure && kSpace != Space::euclidean ? trace::exact::meet_once<kSpace>(in_double.plane, corners, end, triangle.guess)
-                                                               : trace::exact::meet<kSpace>(in_double.plane, corners, end);
+    const TriangleHit hit = sure && kSpace != Space::euclidean
+                                ? trace::exact::meet_once<kSpace>(in_double.plane, corners, end, triangle.guess)
+                                : trace::exact::meet<kSpace>(in_double.plane, corners, end);
     if (!hit.found || (found && hit.t == best.t && triangle.triangle > best.triangle)) return false;
     best = {triangle.triangle, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
     pending = triangle;
@@ -181,8 +184,8 @@ struct Walker {
   }
 };
 
-/// Many rays: set up eight at a time, started where all of a fan may touch something, resolved four at a time. A single ray goes the same way,
-/// so that it gives the same bits alone and in a stream. In: kMost at a time.
+/// Many rays: set up eight at a time, started where all of a fan may touch something, resolved four at a time. A single ray goes the same
+/// way, so that it gives the same bits alone and in a stream. In: kMost at a time.
 template <Space kSpace, int kTerms, bool kAny, bool kCount, std::size_t kMost>
 bool walk_all(const Walk& walk) {
   constexpr std::size_t kFewest = 8;  // for which a fan is worth it

@@ -1,6 +1,6 @@
-// Charts: where the floor is looked at so that curved rays become straight. A gnomonic chart sees less than half of S² and loses digits near
-// the border of H²'s, so scenes that are too wide get several. Enclosing centres: Bădoiu and Clarkson, Smaller core-sets for balls, 2003 (a
-// step towards the farthest point, ever smaller), which works along geodesics as well.
+// Charts: where the floor is looked at so that curved rays become straight. A gnomonic chart sees less than half of S² and loses digits
+// near the border of H²'s, so scenes that are too wide get several. Enclosing centres: Bădoiu and Clarkson, Smaller core-sets for balls,
+// 2003 (a step towards the farthest point, ever smaller), which works along geodesics as well.
 #include "compiler/trace/chart.h"
 
 #include <algorithm>
@@ -52,7 +52,9 @@ ChartPlan enclose(Space space, const Soup& soup, std::vector<std::uint32_t> tria
     for (const std::uint32_t i : soup.triangles[t]) sum = sum + point_of(soup.vertices[i]);
   const double size = std::sqrt(sum.w * sum.w + sum.x * sum.x + sum.y * sum.y);
   if (size > 0.1 * static_cast<double>(plan.triangles.size())) plan.centre = geometry::normalised_point(space, sum);
-  const auto distance = [&] { return geometry::distance(space, plan.centre, point_of(farthest(space, soup, plan.triangles, plan.centre).vertex)); };
+  const auto distance = [&] {
+    return geometry::distance(space, plan.centre, point_of(farthest(space, soup, plan.triangles, plan.centre).vertex));
+  };
   for (int i = 1; i <= 12; ++i) {
     const Point far = point_of(farthest(space, soup, plan.triangles, plan.centre).vertex);
     const double r = geometry::distance(space, plan.centre, far);
@@ -166,8 +168,8 @@ void choose_arc(Space space, Chart& chart) {
   }
 }
 
-/// Bounds for the leaf test: along a segment z(u) is projective, its weights 1/w in a ratio of at most ρ, so |z″| ≤ 2ρ|Δz|·|Δ(1/w)|·w; a curve
-/// leaves its chord by at most |z″|/8.
+/// Bounds for the leaf test: along a segment z(u) is projective, its weights 1/w in a ratio of at most ρ, so |z″| ≤ 2ρ|Δz|·|Δ(1/w)|·w; a
+/// curve leaves its chord by at most |z″|/8.
 void add_leaf_bounds(Space space, Chart& chart) {
   choose_arc(space, chart);
   const double ratio = space == Space::spherical ? 1 / std::cos(chart.radius) : std::cosh(chart.radius);

@@ -9,9 +9,9 @@
 
 namespace orbc::trace {
 
-/// A ray as one chart's tree sees it, in float, with all paddings folded into the constants.
-/// With Q the foot of the perpendicular from the chart's centre to the ray's geodesic, T the unit direction there and t = tanκ(arc from Q), the
-/// chart point is C + e·t/R (C = Q_xy/Q_w, e = T_xy, R = Q_w): affine in t. The height is reached at t = tanκ(s0 + (z − z0)·q), q = c/m.
+/// A ray as one chart's tree sees it, in float, with all paddings folded into the constants. With Q the foot of the perpendicular from the
+/// chart's centre to the ray's geodesic, T the unit direction there and t = tanκ(arc from Q), the chart point is C + e·t/R (C = Q_xy/Q_w, e
+/// = T_xy, R = Q_w): affine in t. The height is reached at t = tanκ(s0 + (z − z0)·q), q = c/m.
 struct ChartRay {
   int near[3] = {0, 0, 0};          ///< which plane of a slab is met first, per axis
   float scale[2] = {0, 0};          ///< t = plane·scale − near_offset | far_offset
@@ -44,7 +44,9 @@ template <geometry::Space kSpace>
 inline void set_ends(const Chart& chart, const Ray& ray, double t_max, ChartRay& out) {
   using chart_ray_detail::kUlp;
   const float pad = static_cast<float>(64 * kUlp * chart.extent);
-  out.surely_after = ray.t_min > 1e-7 ? kNever : out.start > -kNever ? out.start + 4 * pad + 64 * static_cast<float>(kUlp) * std::fabs(out.start) : -kNever;
+  out.surely_after = ray.t_min > 1e-7      ? kNever
+                     : out.start > -kNever ? out.start + 4 * pad + 64 * static_cast<float>(kUlp) * std::fabs(out.start)
+                                           : -kNever;
   out.reach = out.surely_before = kNever;
   if (t_max == kEndless) return;
   const double s = out.s0 + ray.c * t_max;

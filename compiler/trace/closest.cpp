@@ -1,5 +1,5 @@
-// The first thing on a ray: triangles through the BVH, the prism's border by formula. Holes are asked for outside of the tree: a ray that meets
-// one starts again behind it; rooms without holes pay one branch a ray.
+// The first thing on a ray: triangles through the BVH, the prism's border by formula. Holes are asked for outside of the tree: a ray that
+// meets one starts again behind it; rooms without holes pay one branch a ray.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -49,7 +49,8 @@ Hit first_met(const TraceScene& scene, const Ray& ray) {
 }
 
 bool in_hole(const TraceScene& scene, const Hit& hit) {
-  return hit.target == Target::triangle && place::in_hole(*scene.room, scene.room->parts[static_cast<std::size_t>(hit.part)], static_cast<std::size_t>(hit.triangle), hit.b);
+  return hit.target == Target::triangle &&
+         place::in_hole(*scene.room, scene.room->parts[static_cast<std::size_t>(hit.part)], static_cast<std::size_t>(hit.triangle), hit.b);
 }
 
 /// What lies behind the holes that a ray meets first.

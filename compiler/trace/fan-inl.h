@@ -1,8 +1,8 @@
-// A fan: rays of a stream that go nearly the same way. What all of them may touch is looked for once, and every ray starts there instead of at
-// the root: a camera's ray then visits two to four nodes instead of six to eight. Frustum culling is old (Reshetov, Soupikov, Hurley,
-// Multi-level ray tracing, 2005: the entry points of a beam); this is the frustum of spirals. In the chart, with p along a common direction and
-// q across, a ray is the straight line q(p) at the height z(p) = (level + m·atanκ(α + βp))/c. Then
-//  - the largest (smallest) q of the rays is a convex (concave) function of p: it lies below (above) its chord from the first p to the last;
+// A fan: rays of a stream that go nearly the same way. What all of them may touch is looked for once, and every ray starts there instead of
+// at the root: a camera's ray then visits two to four nodes instead of six to eight. Frustum culling is old (Reshetov, Soupikov, Hurley,
+// Multi-level ray tracing, 2005: the entry points of a beam); this is the frustum of spirals. In the chart, with p along a common direction
+// and q across, a ray is the straight line q(p) at the height z(p) = (level + m·atanκ(α + βp))/c. Then
+//  - the largest (smallest) q of the rays is a convex (concave) function of p: it lies below (above) its chord from first to last p;
 //  - every z(p) is monotone, so over an interval of p the rays' heights lie between the least and the largest at its ends;
 //  - between knots z(p) leaves its chord by at most h²/8·max|z″|, the same for the least and the largest of the rays.
 // Nothing that a ray may touch is left out, so rays meet the same alone and in a fan. Included once per instruction set, hence the guard.

@@ -29,8 +29,8 @@ struct Path {
   std::vector<std::int16_t> word;   ///< the mirrors in order: walls from 0, kFloor, kCeiling
 };
 
-/// Follows a ray through the mirrors of the room until it meets an object, a frame, a plain part of a wall, floor or ceiling, or is cut off.
-/// In corners the ray is reflected by each wall it points out of, in turn: the limit of its neighbours when the angle is π/k.
+/// Follows a ray through the mirrors of the room until it meets an object, a frame, a plain part of a wall, floor or ceiling, or is cut
+/// off. In corners the ray is reflected by each wall it points out of, in turn: the limit of its neighbours when the angle is π/k.
 /// Error:  S², E² ~1e-16 per bounce; H² ~1e-16·e^L in place after length L (rounding is amplified by the space itself).
 [[nodiscard]] Path follow(const TraceScene& scene, Ray ray, const FollowOptions& options = {});
 

@@ -73,7 +73,8 @@ struct Corner {
 };
 
 struct Cut {
-  V t, z, w, t_error, blur;         ///< t, height and 1/w of an edge's crossing; bound of the error of t; how far along the edge it may really be
+  /// T, height and 1/w of an edge's crossing; bound of the error of t; how far along the edge it may really be
+  V t, z, w, t_error, blur;
 };
 
 HWY_INLINE Corner pick(M first, const Corner& a, const Corner& b) {
@@ -148,9 +149,10 @@ HWY_INLINE std::uint32_t bits_of(M mask) {
 }
 
 /// Which of eight triangles the ray may meet between `start` and `end`.
-/// Conservative: with f = c·z − m·atanκ(t) − level at the two crossings, how far the triangle is above the ray there, a triangle is dropped only
-/// when f has surely the same sign at both and either does not turn in between or is farther from 0 than the curve in between can bend, or both
-/// crossings surely lie beside the ray's ends. It is sure when the signs surely differ and f does not turn: f′ = 0 anywhere between needs
+/// Conservative: with f = c·z − m·atanκ(t) − level at the two crossings, how far the triangle is above the ray there, a triangle is dropped
+/// only when f has surely the same sign at both and either does not turn in between or is farther from 0 than the curve in between can
+/// bend, or both crossings surely lie beside the ray's ends. It is sure when the signs surely differ and f does not turn: f′ = 0 anywhere
+/// between needs
 /// |f₁ − f₂| ≤ max|f″|/2 = 4 bends.
 template <Space kSpace>
 HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, Verdict& verdict) {
@@ -166,7 +168,8 @@ HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& r
       corner[i].by_w = hn::Load(d, block.by_w[i] + lane);
     }
     const V h_error = hn::Set(d, ray.h_error), zero = hn::Zero(d);
-    const V lowest = hn::Min(corner[0].h, hn::Min(corner[1].h, corner[2].h)), highest = hn::Max(corner[0].h, hn::Max(corner[1].h, corner[2].h));
+    const V lowest = hn::Min(corner[0].h, hn::Min(corner[1].h, corner[2].h)),
+            highest = hn::Max(corner[0].h, hn::Max(corner[1].h, corner[2].h));
     const M crosses = hn::And(hn::Le(lowest, h_error), hn::Ge(highest, hn::Neg(h_error)));
     if (hn::AllFalse(d, crosses)) continue;
     const M left0 = hn::Ge(corner[0].h, zero), left1 = hn::Ge(corner[1].h, zero), left2 = hn::Ge(corner[2].h, zero);

@@ -1,7 +1,7 @@
 // Curved ray against geodesic triangle: the body of `intersect`, in a header so that the kernels of the tree have it inline. Idea: in the
-// (s, z) strip over the ray's floor geodesic the ray is a straight line and the triangle a curve z(s) without vertical turns; one function of
-// one variable is left. Formulas in intersect.h; the edge evaluation order is symmetric in the two ends (a·b + c·d, no contraction), which is
-// what makes neighbours agree bit by bit (Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, 2013, for the straight case).
+// (s, z) strip over the ray's floor geodesic the ray is a straight line and the triangle a curve z(s) without vertical turns; one function
+// of one variable is left. Formulas in intersect.h; the edge evaluation order is symmetric in the two ends (a·b + c·d, no contraction),
+// which is what makes neighbours agree bit by bit (Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, 2013, for the straight case).
 #pragma once
 
 #include <algorithm>
@@ -154,7 +154,8 @@ Found first_root(const Strip<kSpace>& strip, double t_min, double t_max) {
   Found best;
   for (int i = 0; i <= turns; ++i) {
     if ((g[i] < 0) == (g[i + 1] < 0)) continue;
-    const auto place = kSpace == Space::euclidean ? strip.move(strip.start(), g[0] / (g[0] - g[1])) : solve(strip, cut[i], cut[i + 1], g[i], g[i + 1]);
+    const auto place =
+        kSpace == Space::euclidean ? strip.move(strip.start(), g[0] / (g[0] - g[1])) : solve(strip, cut[i], cut[i + 1], g[i], g[i + 1]);
     const double t = strip.c * (place.s + strip.turn) + strip.m * (strip.z_at(place.u) - strip.z_ray);
     if (t > t_min && t < t_max && t < best.t) best = {t, place.u};
   }
@@ -235,8 +236,8 @@ TriangleHit meet(const RayPlane& plane, const Vertex* const vertex[3], double t_
   return found.t < t_max ? hit_at(cutting, found.u, found.t) : TriangleHit{};
 }
 
-/// `meet` for a triangle that is known to be met exactly once, near the fraction `guess` of the way between its two edges: one arc instead of
-/// three. The same point as `meet` gives, up to rounding. In: t_max at most half a turn on S².
+/// `meet` for a triangle that is known to be met exactly once, near the fraction `guess` of the way between its two edges: one arc instead
+/// of three. The same point as `meet` gives, up to rounding. In: t_max at most half a turn on S².
 template <Space kSpace>
 TriangleHit meet_once(const RayPlane& plane, const Vertex* const vertex[3], double t_max, double guess) {
   const Cutting<kSpace> cutting = cut_by<kSpace>(plane, vertex);

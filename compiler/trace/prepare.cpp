@@ -38,7 +38,8 @@ void add_mirrors(TraceScene& scene) {
     const place::PlacedMirror& mirror = scene.room->mirrors[i];
     if (mirror.wall == kFloor) scene.floor_mirror = area_of(mirror, i, 0, 0);
     if (mirror.wall == kCeiling) scene.ceiling_mirror = area_of(mirror, i, 0, 0);
-    if (mirror.wall >= 0) scene.mirrors[mirror.wall].push_back(area_of(mirror, i, scene.prism.walls[mirror.wall].length, scene.prism.height));
+    if (mirror.wall >= 0)
+      scene.mirrors[mirror.wall].push_back(area_of(mirror, i, scene.prism.walls[mirror.wall].length, scene.prism.height));
   }
 }
 
@@ -74,7 +75,8 @@ TraceScene prepare(const place::PlacedRoom& room, const Executor& execute) {
     if (mesh.kind != PartKind::object && mesh.kind != PartKind::frame) continue;
     soup.parts.push_back({static_cast<std::uint32_t>(soup.triangles.size()), static_cast<std::int32_t>(part)});
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    for (std::size_t i = 0; i < mesh.floor.size(); ++i) soup.vertices.push_back({mesh.floor[i].w, mesh.floor[i].x, mesh.floor[i].y, mesh.z[i]});
+    for (std::size_t i = 0; i < mesh.floor.size(); ++i)
+      soup.vertices.push_back({mesh.floor[i].w, mesh.floor[i].x, mesh.floor[i].y, mesh.z[i]});
     for (const mesh::Triangle& t : mesh.triangles) soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   scene.masked = place::has_holes(room);

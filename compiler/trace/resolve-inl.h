@@ -51,9 +51,11 @@ HWY_INLINE void resolve_four(Quad& q) {
     const auto load = [&](const double* from) { return hn::Load(d, from + i); };
     const Triple p{load(q.ray[0]), load(q.ray[1]), load(q.ray[2])}, v{load(q.ray[3]), load(q.ray[4]), load(q.ray[5])};
     const V4 z_ray = load(q.ray[6]), c = load(q.ray[7]), m = load(q.ray[8]), kappa = hn::Set(d, k);
-    const Triple side{hn::MulSub(p.x, v.y, hn::Mul(p.y, v.x)), hn::MulSub(p.y, v.w, hn::Mul(p.w, v.y)), hn::MulSub(p.w, v.x, hn::Mul(p.x, v.w))};
+    const Triple side{hn::MulSub(p.x, v.y, hn::Mul(p.y, v.x)), hn::MulSub(p.y, v.w, hn::Mul(p.w, v.y)),
+                      hn::MulSub(p.w, v.x, hn::Mul(p.x, v.w))};
     const Triple forward{p.w, hn::Mul(kappa, p.x), hn::Mul(kappa, p.y)};
-    const Triple sideward{kSpace == geometry::Space::euclidean ? hn::Neg(hn::MulAdd(p.x, v.x, hn::Mul(p.y, v.y))) : hn::Mul(kappa, v.w), v.x, v.y};
+    const Triple sideward{kSpace == geometry::Space::euclidean ? hn::Neg(hn::MulAdd(p.x, v.x, hn::Mul(p.y, v.y))) : hn::Mul(kappa, v.w),
+                          v.x, v.y};
     V4 h[3], pp[3], vv[3], z[3];
     for (int j = 0; j < 3; ++j) {
       const Triple x{load(q.corner[j][0]), load(q.corner[j][1]), load(q.corner[j][2])};

@@ -61,7 +61,8 @@ struct Hit {
 /// In:     a ray that starts in the room. Thread-safe.
 /// Exact:  the same triangle, t and b as trying `intersect` on every triangle (ties in t aside).
 [[nodiscard]] Hit closest(const TraceScene& scene, const Ray& ray);
-/// The same for many rays at once, bit by bit, in about two thirds of the time: set up eight at a time, walked in turns. Best for 32 and more.
+/// The same for many rays at once, bit by bit, in about two thirds of the time: set up eight at a time, walked in turns. Best for 32 and
+/// more.
 [[nodiscard]] std::vector<Hit> closest(const TraceScene& scene, std::span<const Ray> rays);
 /// The triangles alone, up to max_length.
 [[nodiscard]] Hit closest_triangle(const TraceScene& scene, const Ray& ray, double max_length = kEndless);

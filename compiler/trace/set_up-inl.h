@@ -1,7 +1,7 @@
-// Set-up of up to eight rays for a chart, side by side: the re-basing at the foot of the perpendicular is the performance study's first idea;
-// it costs one square root and makes both the footprint and the node test those of a straight ray. The feet are computed in double and rounded
-// once, so a bound of the float arithmetic alone (a few ulp of the chart's extent) is what the paddings cover. What a ray gets does not depend
-// on its neighbours. Included once per instruction set, hence the guard.
+// Set-up of up to eight rays for a chart, side by side: the re-basing at the foot of the perpendicular is the performance study's first
+// idea; it costs one square root and makes both the footprint and the node test those of a straight ray. The feet are computed in double
+// and rounded once, so a bound of the float arithmetic alone (a few ulp of the chart's extent) is what the paddings cover. What a ray gets
+// does not depend on its neighbours. Included once per instruction set, hence the guard.
 #if defined(ORBC_TRACE_SET_UP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ORBC_TRACE_SET_UP_INL_H
 #undef ORBC_TRACE_SET_UP_INL_H
@@ -140,7 +140,8 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
       hn::Store(hn::Mul(hn::Add(at, pad), q), d, near_offset[a] + i);
       hn::Store(hn::Mul(hn::Sub(at, pad), q), d, far_offset[a] + i);
     }
-    hn::Store(hn::MulSub(hn::Load(d, feet.ex + i), hn::Load(d, feet.cy + i), hn::Mul(hn::Load(d, feet.ey + i), hn::Load(d, feet.cx + i))), d, h_0 + i);
+    hn::Store(hn::MulSub(hn::Load(d, feet.ex + i), hn::Load(d, feet.cy + i), hn::Mul(hn::Load(d, feet.ey + i), hn::Load(d, feet.cx + i))),
+              d, h_0 + i);
   }
   const float beyond = static_cast<float>(chart.radius * 1.0001 + 1e-6);
   for (std::size_t lane = 0; lane < count; ++lane) {
@@ -173,7 +174,8 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
     ray.run = feet.m[lane];
     ray.run_size = std::fabs(ray.run);
     ray.level = static_cast<float>(from.c * from.z - from.m * double(s));
-    ray.level_error = ray.rise * (margin_z + 16 * ulp * std::fabs(feet.z[lane])) + ray.run_size * (chart.arc_error + 16 * ulp * std::fabs(s));
+    ray.level_error =
+        ray.rise * (margin_z + 16 * ulp * std::fabs(feet.z[lane])) + ray.run_size * (chart.arc_error + 16 * ulp * std::fabs(s));
     ray.rise_blur = ray.rise * chart.ratio;
     ray.t_x = feet.ex[lane] * feet.r[lane];
     ray.t_y = feet.ey[lane] * feet.r[lane];

@@ -26,7 +26,8 @@ Direction triangle_normal(Space space, const place::PlacedMesh& mesh, const mesh
   const Ambient sum = b[0] * p0 + b[1] * p1 + b[2] * p2;
   const double size = space == Space::euclidean ? 1 : std::sqrt(std::fabs(sum.w * sum.w + k * (sum.x * sum.x + sum.y * sum.y)));
   // An orthonormal frame (e1, e2) of the floor at X, right-handed with z up.
-  const geometry::Tangent e1 = geometry::normalised_tangent(space, at, std::fabs(at.x) <= std::fabs(at.y) ? Ambient{0, 1, 0} : Ambient{0, 0, 1});
+  const geometry::Tangent e1 =
+      geometry::normalised_tangent(space, at, std::fabs(at.x) <= std::fabs(at.y) ? Ambient{0, 1, 0} : Ambient{0, 0, 1});
   const Ambient left = {at.x * e1.y - at.y * e1.x, at.y * e1.w - at.w * e1.y, at.w * e1.x - at.x * e1.w};
   const Ambient e2 = {k * left.w, left.x, left.y};
   const auto edge = [&](const Point& to, double dz) {

@@ -22,7 +22,8 @@ struct Part {
 struct Layout {
   std::vector<Part> parts;
   bool has_uv = false, has_color = false, has_normals = false;
-  std::size_t position_bytes = 0, normal_at = 0, normal_bytes = 0, uv_at = 0, uv_bytes = 0, color_at = 0, color_bytes = 0, index_at = 0, index_bytes = 0, atlas_at = 0;
+  std::size_t position_bytes = 0, normal_at = 0, normal_bytes = 0, uv_at = 0, uv_bytes = 0, color_at = 0, color_bytes = 0, index_at = 0,
+              index_bytes = 0, atlas_at = 0;
   std::size_t atlas_bytes = 0;      ///< 0 when the atlas is a file of its own
   std::size_t total_bytes = 0;      ///< a multiple of 4
 };

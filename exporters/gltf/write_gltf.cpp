@@ -1,6 +1,6 @@
-// One primitive for all copies: importers pay by the node and the material (5,000 of each take Blender 106 s, one primitive 1.2 s), hence the
-// weights per vertex. KHR_materials_unlit with baseColorTexture is the one form that Blender 3.4 draws with exact colours. doubleSided, because
-// every other copy is a mirror image and turns its triangles around. glTF (x, y, z) is Blender's (x, −z, y).
+// One primitive for all copies: importers pay by the node and the material (5,000 of each take Blender 106 s, one primitive 1.2 s), hence
+// the weights per vertex. KHR_materials_unlit with baseColorTexture is the one form that Blender 3.4 draws with exact colours. doubleSided,
+// because every other copy is a mirror image and turns its triangles around. glTF (x, y, z) is Blender's (x, −z, y).
 // Sources: glTF 2.0 specification (Khronos), §3.6–3.11, §4.4 (GLB); renderers study §8–10.
 #include "exporters/gltf/write_gltf.h"
 
@@ -108,7 +108,8 @@ void write_joint_mesh(Json& json, const Layout& layout) {
   json.end_array().end_object();
 }
 
-/// Which triangles of the joint mesh belong to which copy. At the root, because Blender turns the extras of a mesh into properties, 11 KB a copy.
+/// Which triangles of the joint mesh belong to which copy. At the root, because Blender turns the extras of a mesh into properties, 11 KB a
+/// copy.
 void write_ranges(Json& json, const Product& product, const Layout& layout) {
   json.key("extras").object().key("orbc_copies").array();
   for (std::size_t p = 0; p < layout.parts.size(); ++p) {
@@ -118,7 +119,12 @@ void write_ranges(Json& json, const Product& product, const Layout& layout) {
       if (copy.vertex_count == 0 || copy.index_count == 0) continue;
       json.object();
       write_copy_facts(json, copy);
-      json.key("primitive").number(p).key("first_index").number(copy.first_index - part.first_index).key("index_count").number(copy.index_count);
+      json.key("primitive")
+          .number(p)
+          .key("first_index")
+          .number(copy.first_index - part.first_index)
+          .key("index_count")
+          .number(copy.index_count);
       json.end_object();
     }
   }
@@ -157,7 +163,8 @@ Tints collect_tints(const Product& product, const Layout& layout, bool per_copy)
 std::vector<driver::NativeLamp> own_lamps(const Product& product) {
   std::vector<driver::NativeLamp> own;
   if (product.native)
-    std::copy_if(product.native->lamps.begin(), product.native->lamps.end(), std::back_inserter(own), [](const driver::NativeLamp& l) { return l.own; });
+    std::copy_if(product.native->lamps.begin(), product.native->lamps.end(), std::back_inserter(own),
+                 [](const driver::NativeLamp& l) { return l.own; });
   return own;
 }
 
@@ -165,8 +172,8 @@ bool is_cone(const driver::NativeLamp& lamp) {
   return lamp.kind == scene::LampKind::spot || lamp.kind == scene::LampKind::disk || lamp.kind == scene::LampKind::rectangle;
 }
 
-/// KHR_lights_punctual: points and cones, in candela. A white surface, face on at distance r, is to show intensity/r²: that is I/(π r²) of a
-/// radiant intensity I, and at 683 lm/W, as Blender takes it, 683·π candela for each. Plates become the widest cones there are.
+/// KHR_lights_punctual: points and cones, in candela. A white surface, face on at distance r, is to show intensity/r²: that is I/(π r²) of
+/// a radiant intensity I, and at 683 lm/W, as Blender takes it, 683·π candela for each. Plates become the widest cones there are.
 void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
   constexpr double kLumensPerWatt = 683;
   json.key("extensions").object().key("KHR_lights_punctual").object().key("lights").array();
@@ -176,7 +183,11 @@ void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
     json.key("color").numbers(floats((1 / whole) * lamp.intensity));
     json.key("intensity").number(kLumensPerWatt * std::numbers::pi * most);
     if (lamp.kind != scene::LampKind::tube && geometry::length(lamp.across) > 0)   // glTF knows no size; scripts/render_blender.py does
-      json.key("extras").object().key("orbc_radius").number(static_cast<float>(std::sqrt(geometry::length(lamp.across) * geometry::length(lamp.other)))).end_object();
+      json.key("extras")
+          .object()
+          .key("orbc_radius")
+          .number(static_cast<float>(std::sqrt(geometry::length(lamp.across) * geometry::length(lamp.other))))
+          .end_object();
     if (is_cone(lamp)) {
       const bool spot = lamp.kind == scene::LampKind::spot;
       const double outer = spot ? std::min(std::acos(lamp.cone_outer), std::numbers::pi / 2) : std::numbers::pi / 2;
@@ -198,7 +209,16 @@ void write_lamp_node(Json& json, const driver::NativeLamp& lamp, std::size_t num
   column(geometry::cross(back, right), 0);
   column(back, 0);
   column(lamp.at, 1);
-  json.end_array().key("extensions").object().key("KHR_lights_punctual").object().key("light").number(number).end_object().end_object().end_object();
+  json.end_array()
+      .key("extensions")
+      .object()
+      .key("KHR_lights_punctual")
+      .object()
+      .key("light")
+      .number(number)
+      .end_object()
+      .end_object()
+      .end_object();
 }
 
 void write_materials(Json& json, const Layout& layout, const Tints& tints, const std::string& atlas_uri, bool interpolate, bool masked) {
@@ -213,7 +233,8 @@ void write_materials(Json& json, const Layout& layout, const Tints& tints, const
       for (const double v : {tint.r, tint.g, tint.b, 1.0}) json.number(std::clamp(v, 0.0, 1.0));
       json.end_array();
     }
-    // Glowing: for viewers that do not know unlit. Lit: without its highlights Blender's principled surface is nearest to Lambert's at one half.
+    // Glowing: for viewers that do not know unlit. Lit: without its highlights Blender's principled surface is nearest to Lambert's at one
+    // half.
     json.key("metallicFactor").number(0).key("roughnessFactor").number(glows ? 1 : 0.5).end_object();
     json.key("extensions").object();
     if (glows) json.key("KHR_materials_unlit").object().end_object();
@@ -356,7 +377,9 @@ std::string make_glb(const Product& product, const Layout& layout, const std::st
   json.append((4 - json.size() % 4) % 4, ' ');
   const bool has_bin = layout.total_bytes > 0;
   const std::size_t total = 12 + 8 + json.size() + (has_bin ? 8 + layout.total_bytes : 0);
-  if (total > 0xFFFFFFFFu) throw std::length_error("a GLB file holds less than 4 GiB, this one would need " + std::to_string(total) + " bytes; write .gltf instead");
+  if (total > 0xFFFFFFFFu)
+    throw std::length_error("a GLB file holds less than 4 GiB, this one would need " + std::to_string(total) +
+                            " bytes; write .gltf instead");
   std::string out;
   out.reserve(total);
   out += "glTF";
@@ -386,7 +409,8 @@ std::string atlas_png(const Product& product) {
 
 std::vector<driver::File> write_gltf(const Product& product, const GltfOptions& options) {
   ORBC_CHECK(product.uv.size(), ==, product.positions.size());
-  const bool drawn = std::any_of(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.vertex_count && c.index_count; });
+  const bool drawn =
+      std::any_of(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.vertex_count && c.index_count; });
   std::string png;
   if (drawn && !product.atlas.rgba.empty()) png = atlas_png(product);
   const Layout layout = make_layout(product, options.nodes_per_copy, options.binary ? png.size() : 0);

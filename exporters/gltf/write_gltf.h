@@ -15,10 +15,11 @@ struct GltfOptions {
 
 /// Writes the product as glTF 2.0: unlit triangles that any viewer draws with straight rays.
 /// In:     copies whose triangles use only their own vertices; an atlas that is to be PNG (of 8 or 16 bits): glTF knows no EXR.
-/// Makes:  by default one primitive with the weights in COLOR_0 (u16, linear) and words and ranges of the copies in the root's extras (orbc_copies); positions
-///         turned to glTF's y-up axes exactly, so that Blender shows the product's coordinates; a camera node, whose extras (orbc_projection,
-///         orbc_width, orbc_height, orbc_fov_deg, orbc_background) carry what glTF cannot say. The same bytes for the same product; the Khronos
-///         validator finds neither errors nor warnings. A product without triangles becomes a scene with a camera.
+/// Makes:  by default one primitive with the weights in COLOR_0 (u16, linear) and words and ranges of the copies in the root's extras
+///         (orbc_copies); positions turned to glTF's y-up axes exactly, so that Blender shows the product's coordinates; a camera node,
+///         whose extras (orbc_projection, orbc_width, orbc_height, orbc_fov_deg, orbc_background) carry what glTF cannot say. The same
+///         bytes for the same product; the Khronos validator finds neither errors nor warnings. A product without triangles becomes a scene
+///         with a camera.
 /// Throws: std::length_error for a GLB of 4 GiB or more.
 [[nodiscard]] std::vector<driver::File> write_gltf(const driver::Product& product, const GltfOptions& options = {});
 

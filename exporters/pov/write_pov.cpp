@@ -1,6 +1,6 @@
 // One mesh2 per copy costs nothing in POV-Ray (100,000 objects parse as fast as one), shared vertices halve the time, one declared atlas
-// serves all (an image_map per object would be loaded anew each time: 15 s instead of 0.1 s). Colours: pigment from the atlas (sRGB, decoded
-// by POV-Ray) times `emission`, in linear light, encoded again on output; nothing else may shine.
+// serves all (an image_map per object would be loaded anew each time: 15 s instead of 0.1 s). Colours: pigment from the atlas (sRGB,
+// decoded by POV-Ray) times `emission`, in linear light, encoded again on output; nothing else may shine.
 #include "exporters/pov/write_pov.h"
 
 #include <algorithm>
@@ -50,8 +50,8 @@ void write_camera(Pen& pen, const driver::Product& product) {
   switch (eye.projection) {
     case scene::Projection::perspective: {
       const double half = std::tan(eye.fov.radians / 2);
-      pen << "perspective\n  location " << at.location << "\n  direction " << at.forward << "\n  right " << (2 * half) * at.right << "\n  up "
-          << (2 * half * aspect) * at.up << "\n";
+      pen << "perspective\n  location " << at.location << "\n  direction " << at.forward << "\n  right " << (2 * half) * at.right
+          << "\n  up " << (2 * half * aspect) * at.up << "\n";
       break;
     }
     case scene::Projection::panorama:
@@ -97,8 +97,8 @@ void write_atlas_pigment(Pen& pen, const driver::Product& product, const AtlasFi
   } else if (files.mask.name.empty()) {
     pen << "uv_mapping image_map { " << kind << " \"" << files.atlas.name << "\"" << lookup << " }";
   } else {
-    pen << "uv_mapping image_pattern { png \"" << files.mask.name << "\"" << lookup << " } pigment_map { [0.5 rgbt 1] [0.5 image_map { " << kind << " \""
-        << files.atlas.name << "\"" << lookup << " }] }";
+    pen << "uv_mapping image_pattern { png \"" << files.mask.name << "\"" << lookup << " } pigment_map { [0.5 rgbt 1] [0.5 image_map { "
+        << kind << " \"" << files.atlas.name << "\"" << lookup << " }] }";
   }
   pen << " }\n";
 }
@@ -115,7 +115,8 @@ void write_lamp(Pen& pen, const driver::NativeLamp& lamp) {
   pen << "light_source { " << lamp.at << " rgb " << gain * lamp.intensity;
   const bool one_sided = lamp.kind == LampKind::rectangle || lamp.kind == LampKind::disk;
   if (lamp.kind == LampKind::spot) {
-    pen << " spotlight point_at " << lamp.at + lamp.axis << " radius " << degrees_of(lamp.cone_inner) << " falloff " << degrees_of(lamp.cone_outer) << " tightness 0";
+    pen << " spotlight point_at " << lamp.at + lamp.axis << " radius " << degrees_of(lamp.cone_inner) << " falloff "
+        << degrees_of(lamp.cone_outer) << " tightness 0";
   } else if (one_sided) {  // the cosine of a Lambertian plate
     pen << " spotlight point_at " << lamp.at + lamp.axis << " radius 90 falloff 90 tightness 1";
   }
@@ -133,7 +134,8 @@ void write_lamp(Pen& pen, const driver::NativeLamp& lamp) {
 
 /// The finish by which the pigment becomes light.
 void write_finish(Pen& pen, const driver::Product& product, const driver::DrawnCopy& copy) {
-  if (product.native && copy.shine == driver::Shine::lit) pen << "finish { emission rgb " << copy.tint * product.native->ambient << " ambient 0 diffuse 1 }";
+  if (product.native && copy.shine == driver::Shine::lit)
+    pen << "finish { emission rgb " << copy.tint * product.native->ambient << " ambient 0 diffuse 1 }";
   else pen << "finish { emission rgb " << copy.tint << " ambient 0 diffuse 0 }";
 }
 

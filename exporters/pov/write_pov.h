@@ -14,8 +14,9 @@ struct PovOptions {
 
 /// Writes the product as a scene of POV-Ray 3.7 that an unmodified povray draws with straight rays and exact colours.
 /// In:     copies whose triangles use only their own vertices.
-/// Makes:  the scene (name "") and, unless `inline_atlas`, the atlas beside it; the same bytes for the same product. One mesh2 a copy with its
-///         weight as emission; no normals and no lights, unless the product has lamps: then each copy is a light_group with its own; the camera in its explicit right-handed form. Copies without triangles are only mentioned.
+/// Makes:  the scene (name "") and, unless `inline_atlas`, the atlas beside it; the same bytes for the same product. One mesh2 a copy with
+///         its weight as emission; no normals and no lights, unless the product has lamps: then each copy is a light_group with its own;
+///         the camera in its explicit right-handed form. Copies without triangles are only mentioned.
 /// Source: renderers study §2–4: assumed_gamma 1 and adc_bailout 0 give exact colours; the spherical camera wants right and up negated.
 [[nodiscard]] std::vector<driver::File> write_pov(const driver::Product& product, const PovOptions& options = {});
 

@@ -27,7 +27,8 @@ const Case& case_of(const benchmark::State& state) {
 void prepare_room(benchmark::State& state) {
   const Case& c = case_of(state);
   for (auto _ : state) benchmark::DoNotOptimize(prepare(c.placed));
-  state.counters["bytes/triangle"] = static_cast<double>(c.scene.objects->bytes()) / static_cast<double>(c.placed.parts[0].triangles.size());
+  state.counters["bytes/triangle"] =
+      static_cast<double>(c.scene.objects->bytes()) / static_cast<double>(c.placed.parts[0].triangles.size());
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.placed.parts[0].triangles.size()));
 }
 

@@ -1,7 +1,7 @@
-// The tracer against the limit: Embree's rtcIntersect1 on straight rays in the Euclidean room, walls analytic on both sides. Repetitions are
-// interleaved in one process and the medians' ratios printed, since absolute times drift. One thread: CPU time of the thread.
-// With two threads both clocks are told: the wall's, and that of the busier thread, which a busy machine does not lengthen.
-// trace_ratio_bench [repetitions] [triangle counts…] [--threads] [--json FILE]
+// The tracer against the limit: Embree's rtcIntersect1 on straight rays in the Euclidean room, walls analytic on both sides. Repetitions
+// are interleaved in one process and the medians' ratios printed, since absolute times drift. One thread: CPU time of the thread. With two
+// threads both clocks are told: the wall's, and that of the busier thread, which a busy machine does not lengthen.
+//   trace_ratio_bench [repetitions] [triangle counts…] [--threads] [--json FILE]
 #include <pmmintrin.h>
 #include <time.h>
 #include <xmmintrin.h>
@@ -67,14 +67,16 @@ Work streams(const Case& c, std::size_t begin, std::size_t end, int bounces) {
   Work work;
   std::vector<Ray> going;
   for (; begin < end; begin += kTile) {
-    going.assign(c.rays.begin() + static_cast<std::ptrdiff_t>(begin), c.rays.begin() + static_cast<std::ptrdiff_t>(std::min(end, begin + kTile)));
+    going.assign(c.rays.begin() + static_cast<std::ptrdiff_t>(begin),
+                 c.rays.begin() + static_cast<std::ptrdiff_t>(std::min(end, begin + kTile)));
     for (int i = 0; !going.empty(); ++i) {
       const std::vector<Hit> hits = closest(c.scene, going);
       work.rays += hits.size();
       std::size_t left = 0;
       for (std::size_t j = 0; j < hits.size(); ++j) {
         work.hits += hits[j].target == Target::triangle;
-        if (hits[j].target == Target::wall && i < bounces) going[left++] = reflected_in_wall(c.scene.prism, going[j], hits[j].t, hits[j].wall);
+        if (hits[j].target == Target::wall && i < bounces)
+          going[left++] = reflected_in_wall(c.scene.prism, going[j], hits[j].t, hits[j].wall);
       }
       going.resize(left);
     }
@@ -97,7 +99,8 @@ struct Embree {
       v[3 * i + 1] = static_cast<float>(mesh.floor[i].y);
       v[3 * i + 2] = static_cast<float>(mesh.z[i]);
     }
-    auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+    auto* t =
+        static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) std::copy(mesh.triangles[i].begin(), mesh.triangles[i].end(), t + 3 * i);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
@@ -201,7 +204,8 @@ void print(int size, int bounces, std::vector<Runner>& runners) {
     std::printf("\n    %s:", i == own ? "ray by ray" : "streams   ");
     for (std::size_t j = i; j < i + 3; ++j) std::printf("  %s %.2f", runners[j].name.c_str(), runners[j].rate());
     if (own)
-      for (std::size_t j = i; j < i + 3; ++j) std::printf("%s %s %.2f", j == i ? "  | of Embree:" : "", runners[j].name.c_str(), runners[j].rate() / runners[0].rate());
+      for (std::size_t j = i; j < i + 3; ++j)
+        std::printf("%s %s %.2f", j == i ? "  | of Embree:" : "", runners[j].name.c_str(), runners[j].rate() / runners[0].rate());
     std::printf("  | of straight: S2 %.2f H2 %.2f", runners[i + 1].rate() / runners[i].rate(), runners[i + 2].rate() / runners[i].rate());
     const std::string key = std::to_string(size) + (bounces ? " mirrors " : " camera ") + (i == own ? "singly " : "streams ");
     for (std::size_t j = i; j < i + 3; ++j) {
@@ -232,13 +236,15 @@ int main(int argc, char** argv) {
   for (const int size : sizes) {
     const int around = size > 100000 ? 200 : 20, steps = size / (2 * around);
     std::vector<Case> cases;
-    for (const auto space : {geometry::Space::euclidean, geometry::Space::spherical, geometry::Space::hyperbolic}) cases.push_back(make_case(space, steps, around));
+    for (const auto space : {geometry::Space::euclidean, geometry::Space::spherical, geometry::Space::hyperbolic})
+      cases.push_back(make_case(space, steps, around));
     for (Case& c : cases) {
       const double cpu = cpu_seconds(), start = wall_seconds();
       c.scene = prepare(c.placed);
-      std::printf("%s: %zu triangles, prepared in %.3f s (CPU %.3f s, one thread), %.1f bytes a triangle, %zu nodes, %zu blocks\n", c.name.c_str(), c.placed.parts[0].triangles.size(),
-                  wall_seconds() - start, cpu_seconds() - cpu, double(c.scene.objects->bytes()) / double(c.placed.parts[0].triangles.size()),
-                  c.scene.objects->charts()[0].nodes.size(), c.scene.objects->charts()[0].blocks.size());
+      std::printf("%s: %zu triangles, prepared in %.3f s (CPU %.3f s, one thread), %.1f bytes a triangle, %zu nodes, %zu blocks\n",
+                  c.name.c_str(), c.placed.parts[0].triangles.size(), wall_seconds() - start, cpu_seconds() - cpu,
+                  double(c.scene.objects->bytes()) / double(c.placed.parts[0].triangles.size()), c.scene.objects->charts()[0].nodes.size(),
+                  c.scene.objects->charts()[0].blocks.size());
       const double both = wall_seconds();
       { const TraceScene again = prepare(c.placed, orbc::testing::threads(2)); }
       std::printf("    on two threads in %.3f s\n", wall_seconds() - both);
@@ -250,10 +256,11 @@ int main(int argc, char** argv) {
     for (const Case& c : cases) {
       BvhCounts counts;
       std::uint64_t hits = 0;
-      for (const Ray& ray : c.rays) hits += c.scene.objects->closest_counted(ray, c.name == "S2" && ray.c > 0 ? kPi / ray.c : kEndless, counts).triangle != kNone;
+      for (const Ray& ray : c.rays)
+        hits += c.scene.objects->closest_counted(ray, c.name == "S2" && ray.c > 0 ? kPi / ray.c : kEndless, counts).triangle != kNone;
       const double n = static_cast<double>(c.rays.size());
-      std::printf("%s: a camera ray visits %.2f nodes, %.2f blocks, %.3f candidates for %.3f hits\n", c.name.c_str(), double(counts.nodes) / n, double(counts.blocks) / n,
-                  double(counts.candidates) / n, double(hits) / n);
+      std::printf("%s: a camera ray visits %.2f nodes, %.2f blocks, %.3f candidates for %.3f hits\n", c.name.c_str(),
+                  double(counts.nodes) / n, double(counts.blocks) / n, double(counts.candidates) / n, double(hits) / n);
     }
 #ifdef ORBC_EMBREE
     const Embree embree(cases[0].placed.parts[0]);
@@ -264,7 +271,9 @@ int main(int argc, char** argv) {
       runners.push_back(runner("Embree", cases[0], bounces, [&](const Ray& ray) { return embree.closest(cases[0].scene, ray); }));
 #endif
       for (const Case& c : cases) runners.push_back(runner(c.name, c, bounces, [&c](const Ray& ray) { return closest(c.scene, ray); }));
-      for (const Case& c : cases) runners.push_back({c.name, [&c, bounces](std::size_t begin, std::size_t end) { return streams(c, begin, end, bounces); }, {}, {}, {}});
+      for (const Case& c : cases)
+        runners.push_back(
+            {c.name, [&c, bounces](std::size_t begin, std::size_t end) { return streams(c, begin, end, bounces); }, {}, {}, {}});
       measure(runners, cases[0].rays.size(), repetitions, 1);
       print(size, bounces, runners);
       if (!threads) continue;
@@ -277,7 +286,8 @@ int main(int argc, char** argv) {
         std::sort(r.cpu.begin(), r.cpu.end());
         const double by_cpu = one_cpu[i] / r.cpu[r.cpu.size() / 2];
         std::printf("  %s %.2f (by CPU time %.2f)", r.name.c_str(), r.rate() / one[i], by_cpu);
-        const std::string key = std::to_string(size) + (bounces ? " mirrors " : " camera ") + (i + 3 >= runners.size() ? "streams " : "singly ") + r.name;
+        const std::string key =
+            std::to_string(size) + (bounces ? " mirrors " : " camera ") + (i + 3 >= runners.size() ? "streams " : "singly ") + r.name;
         figures.add(key + " two threads over one", r.rate() / one[i]);
         figures.add(key + " two threads over one, CPU time", by_cpu);
       }

@@ -1,5 +1,6 @@
 #pragma once
-// The rooms of the benchmarks: right-angled corners and equal size in the three spaces, a torus knot tube in the middle, and a camera's rays.
+// The rooms of the benchmarks: right-angled corners and equal size in the three spaces, a torus knot tube in the middle, and a camera's
+// rays.
 #include <string>
 #include <vector>
 
@@ -38,7 +39,9 @@ inline Case make_case(geometry::Space space, int steps, int around, const Execut
   using geometry::Space;
   Case c;
   c.name = space == Space::spherical ? "S2" : space == Space::euclidean ? "E2" : "H2";
-  room::Room room = space == Space::spherical ? regular_room(space, 3, 2) : space == Space::euclidean ? regular_room(space, 4, 2, 0.62 * std::numbers::sqrt2) : regular_room(space, 5, 2);
+  room::Room room = space == Space::spherical   ? regular_room(space, 3, 2)
+                    : space == Space::euclidean ? regular_room(space, 4, 2, 0.62 * std::numbers::sqrt2)
+                                                : regular_room(space, 5, 2);
   c.placed = furnished(std::move(room), 1, 0.9);
   c.placed.parts.push_back(torus_knot(space, {}, 0.21, 0.065, 0.5, steps, around));
   c.placed.looks.resize(1);

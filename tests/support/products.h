@@ -53,10 +53,10 @@ inline driver::Product two_squares() {
   product.background = {0.25, 0.5, 0.75};
   add_texel(product.atlas, {255, 128, 0});
   add_texel(product.atlas, {10, 20, 30});
-  add_copy(product, {{2, -0.25f, 0}, {2, 0.25f, 0}, {2, 0.25f, 0.75f}, {2, -0.25f, 0.75f}}, {{0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}},
-           {0, 1, 2, 0, 2, 3});
-  driver::DrawnCopy& image =
-      add_copy(product, {{3, -1, 0}, {3, 1, 0}, {3, 1, 1.5f}, {3, -1, 1.5f}}, {{0.75f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}}, {0, 2, 1, 0, 3, 2});
+  add_copy(product, {{2, -0.25f, 0}, {2, 0.25f, 0}, {2, 0.25f, 0.75f}, {2, -0.25f, 0.75f}},
+           {{0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}}, {0, 1, 2, 0, 2, 3});
+  driver::DrawnCopy& image = add_copy(product, {{3, -1, 0}, {3, 1, 0}, {3, 1, 1.5f}, {3, -1, 1.5f}},
+                                      {{0.75f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}}, {0, 2, 1, 0, 3, 2});
   image.tint = {0.81, 0.6561, 0.5};
   image.word = {1, 0};
   image.bounces = 2;

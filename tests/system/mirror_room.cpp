@@ -24,8 +24,11 @@ std::string mirror_quad(const driver::Opened& opened, const place::PlacedMirror&
     return fmt::format("<{:.17g},{:.17g},{:.17g}>", p.x, p.y, mirror.height[level]);
   };
   const scene::Color c = mirror.reflectance * mirror.tint;
-  return fmt::format("mesh2 {{ vertex_vectors {{ 4, {},{},{},{} }} face_indices {{ 2, <0,1,2>,<0,2,3> }} texture {{ pigment {{ rgb 0 }} finish {{ ambient 0 diffuse 0 emission 0 "
-                     "reflection {{ rgb <{:.17g},{:.17g},{:.17g}> }} }} }} }}\n", corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1), c.r, c.g, c.b);
+  return fmt::format(
+      "mesh2 {{ vertex_vectors {{ 4, {},{},{},{} }} face_indices {{ 2, <0,1,2>,<0,2,3> }} texture {{ pigment {{ rgb 0 }} finish {{ ambient "
+      "0 diffuse 0 emission 0 "
+      "reflection {{ rgb <{:.17g},{:.17g},{:.17g}> }} }} }} }}\n",
+      corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1), c.r, c.g, c.b);
 }
 
 std::string vector(double x, double y, double z) { return fmt::format("<{:.9g},{:.9g},{:.9g}>", x, y, z); }

@@ -1,5 +1,5 @@
 // Writes products made by hand for the tests that draw them with real renderers: sample_products SAMPLE FORMAT FOLDER
-//   SAMPLE  squares | codes | balls-PROJECTION | flat | empty | hollow | many | huge | one-texel, or a notation such as *237 for the format svg
+//   SAMPLE  squares | codes | balls-PROJECTION | flat | empty | hollow | many | huge | one-texel, or a notation such as *237 for svg
 //   FORMAT  pov | pipe | glb | gltf | nodes | svg | klein
 // leaves FOLDER/SAMPLE.EXT and what belongs to it, and prints what is known of the sample as JSON.
 #include <fmt/core.h>
@@ -43,7 +43,8 @@ driver::Product codes() {
   for (int band = 0; band < 4; ++band) {
     // The picture's plane at distance 1 is 1 wide and 1/4 high; y falls to the right, z rises.
     const float top = 0.125f - 0.0625f * static_cast<float>(band), bottom = top - 0.0625f;
-    test::add_copy(product, {{1, 0.5f, top}, {1, -0.5f, top}, {1, -0.5f, bottom}, {1, 0.5f, bottom}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 1, 2, 0, 2, 3})
+    test::add_copy(product, {{1, 0.5f, top}, {1, -0.5f, top}, {1, -0.5f, bottom}, {1, 0.5f, bottom}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                   {0, 1, 2, 0, 2, 3})
         .tint = tints[band];
   }
   return product;
@@ -63,8 +64,9 @@ std::vector<Ball> add_balls(driver::Product& product, int count, const Vector3& 
     const double z = 1 - 2 * (i + 0.5) / count, turn = 2.399963229728653 * i, radius = 2 + 4.0 * ((i * 7) % count) / count;
     const double rho = std::sqrt(1 - z * z);
     const Vector3 direction{rho * std::cos(turn), rho * std::sin(turn), z};
-    Ball ball{center + radius * direction,
-              {static_cast<std::uint8_t>(30 + 15 * (i % 15)), static_cast<std::uint8_t>(30 + 15 * (i / 15)), static_cast<std::uint8_t>(255 - i)}};
+    Ball ball{
+        center + radius * direction,
+        {static_cast<std::uint8_t>(30 + 15 * (i % 15)), static_cast<std::uint8_t>(30 + 15 * (i / 15)), static_cast<std::uint8_t>(255 - i)}};
     test::add_texel(product.atlas, ball.color);
     balls.push_back(ball);
   }
@@ -75,7 +77,8 @@ std::vector<Ball> add_balls(driver::Product& product, int count, const Vector3& 
     for (const Vector3& axis : {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}})
       for (const double sign : {1.0, -1.0}) positions.push_back(float3(ball.at + sign * r * axis));
     const std::array<float, 2> uv{static_cast<float>((i + 0.5) / count), 0.5f};
-    test::add_copy(product, positions, std::vector<std::array<float, 2>>(6, uv), {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5});
+    test::add_copy(product, positions, std::vector<std::array<float, 2>>(6, uv),
+                   {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5});
   }
   return balls;
 }
@@ -97,7 +100,8 @@ driver::Product many() {
 driver::Product huge() {
   driver::Product product = test::two_squares();
   product.eye.width = 1, product.eye.height = 997;
-  test::add_copy(product, {{1e30f, 0, 0}, {0, 3e38f, 0}, {0, 0, -3e38f}, {1e-38f, 1e-45f, -1e-20f}}, {{0, 0}, {1, 1}, {1e20f, -5}, {0, 0}}, {0, 1, 2, 3, 3, 3});
+  test::add_copy(product, {{1e30f, 0, 0}, {0, 3e38f, 0}, {0, 0, -3e38f}, {1e-38f, 1e-45f, -1e-20f}}, {{0, 0}, {1, 1}, {1e20f, -5}, {0, 0}},
+                 {0, 1, 2, 3, 3, 3});
   return product;
 }
 
@@ -106,11 +110,14 @@ std::string json(const Vector3& v) { return fmt::format("[{},{},{}]", v.x, v.y, 
 void print_facts(const driver::Product& product, const std::vector<Ball>& balls) {
   const exporters::Standpoint at = exporters::standpoint(product);
   const place::Eye& eye = product.eye;
-  fmt::print("{{\"width\":{},\"height\":{},\"fov\":{},\"projection\":{},\"location\":{},\"forward\":{},\"right\":{},\"up\":{},\"background\":[{},{},{}],\"balls\":[",
-             eye.width, eye.height, eye.fov.radians, static_cast<int>(eye.projection), json(at.location), json(at.forward), json(at.right), json(at.up),
-             product.background.r, product.background.g, product.background.b);
+  fmt::print(
+      "{{\"width\":{},\"height\":{},\"fov\":{},\"projection\":{},\"location\":{},\"forward\":{},\"right\":{},\"up\":{},\"background\":[{},{"
+      "},{}],\"balls\":[",
+      eye.width, eye.height, eye.fov.radians, static_cast<int>(eye.projection), json(at.location), json(at.forward), json(at.right),
+      json(at.up), product.background.r, product.background.g, product.background.b);
   for (std::size_t i = 0; i < balls.size(); ++i)
-    fmt::print("{}{{\"at\":{},\"color\":[{},{},{}]}}", i ? "," : "", json(balls[i].at), balls[i].color[0], balls[i].color[1], balls[i].color[2]);
+    fmt::print("{}{{\"at\":{},\"color\":[{},{},{}]}}", i ? "," : "", json(balls[i].at), balls[i].color[0], balls[i].color[1],
+               balls[i].color[2]);
   fmt::print("],\"tints\":[");
   for (std::size_t i = 0; i < product.copies.size() && i < 4; ++i)
     fmt::print("{}[{},{},{}]", i ? "," : "", product.copies[i].tint.r, product.copies[i].tint.g, product.copies[i].tint.b);
@@ -153,7 +160,8 @@ driver::Product make(const std::string& sample, std::vector<Ball>& balls) {
     product.eye.fov = Angle::from_degrees(250);
   } else if (sample == "flat") {
     product.flat_view = true;
-    product.eye.room_from_eye = geometry::translation_by(geometry::Space::hyperbolic, 0.8, -0.5) * geometry::rotation(geometry::Space::hyperbolic, 1.1);
+    product.eye.room_from_eye =
+        geometry::translation_by(geometry::Space::hyperbolic, 0.8, -0.5) * geometry::rotation(geometry::Space::hyperbolic, 1.1);
     product.eye.fov = Angle::from_degrees(100);
   } else {
     throw std::runtime_error("unknown sample " + sample);
@@ -172,13 +180,14 @@ void write_tiling(const std::string& notation, bool klein, const std::string& fo
   for (std::size_t i = 0; i < tiling.room.walls.size(); ++i)
     if (tiling.room.walls[i].reflects) reflections.push_back(room::reflection_in_wall(tiling.room, static_cast<int>(i)));
   const int depth = 12;
-  cover::enumerate(cover::Automaton(tiling.room.orbifold, depth), reflections, depth, [&](const cover::Element& element, const geometry::Isometry& map) {
-    cover::Copy copy;
-    copy.cover_from_room = map;
-    copy.word.assign(element.word.begin(), element.word.end());
-    tiling.copies.push_back(copy);
-    return (map * geometry::Point()).w > 40 ? cover::Walk::back : cover::Walk::deeper;  // near the rim of the disk
-  });
+  cover::enumerate(cover::Automaton(tiling.room.orbifold, depth), reflections, depth,
+                   [&](const cover::Element& element, const geometry::Isometry& map) {
+                     cover::Copy copy;
+                     copy.cover_from_room = map;
+                     copy.word.assign(element.word.begin(), element.word.end());
+                     tiling.copies.push_back(copy);
+                     return (map * geometry::Point()).w > 40 ? cover::Walk::back : cover::Walk::deeper;  // near the rim of the disk
+                   });
   write(folder + "/tiling.svg", svg::write_svg(tiling)[0].bytes);
   const std::vector<svg::Piece> pieces = svg::outline_pieces(tiling.room);
   const svg::Page page = svg::make_page(tiling, pieces, svg::SvgOptions().width);
@@ -187,7 +196,8 @@ void write_tiling(const std::string& notation, bool klein, const std::string& fo
   int longest = 1;
   for (const cover::Copy& copy : tiling.copies) {
     const geometry::Point center = copy.cover_from_room * geometry::Point();
-    if (tiling.room.space == geometry::Space::spherical && (center.w < (klein ? 0.5 : -0.9) || std::abs(center.w) < 0.02)) continue;  // unseen, or on the dotted equator
+    // Unseen, or on the dotted equator
+    if (tiling.room.space == geometry::Space::spherical && (center.w < (klein ? 0.5 : -0.9) || std::abs(center.w) < 0.02)) continue;
     const std::complex<double> at = svg::on_page(page, center);
     if (svg::tile_path(page, pieces, copy.cover_from_room).diameter < 60 || std::abs(at - page.middle) > 0.97 * page.width / 2) continue;
     fmt::print("{}[{},{},\"{}\"]", first ? "" : ",", at.real(), at.imag(), svg::fill_of(copy, longest, tiling.colouring));

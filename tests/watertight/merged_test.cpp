@@ -1,5 +1,5 @@
-// Copies too small to be drawn one by one: a panel in the mirror through which they are seen stands for them, so that the picture neither has holes nor
-// another colour there.
+// Copies too small to be drawn one by one: a panel in the mirror through which they are seen stands for them, so that the picture neither
+// has holes nor another colour there.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -74,8 +74,8 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
     REQUIRE(compiled);
     const Difference off = difference(test::picture(compiled->product), truth, opened.eye.width);
     const driver::Report& r = compiled->report;
-    INFO(c.path << ", min_pixels " << pixels << ": " << r.copies << " copies, " << r.curtains << " curtains, weight " << r.weight_merged << ", mean " << off.mean
-                << ", smooth " << off.smooth);
+    INFO(c.path << ", min_pixels " << pixels << ": " << r.copies << " copies, " << r.curtains << " curtains, weight " << r.weight_merged
+                << ", mean " << off.mean << ", smooth " << off.smooth);
     CHECK((r.curtains > 0) == (pixels > 0 && r.copies < copies));
     CHECK(off.smooth < c.error);
     CHECK(off.mean < 2 * c.error);
@@ -87,7 +87,8 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
 }
 
 TEST_CASE("closed rooms stay closed when copies are merged", "[watertight]") {
-  const char* const path = GENERATE("tests/scenes/verify/square-one.yaml", "tests/scenes/verify/square-adjacent.yaml", "tests/scenes/verify/pentagon-brick.yaml", "tests/bench/scale.yaml");
+  const char* const path = GENERATE("tests/scenes/verify/square-one.yaml", "tests/scenes/verify/square-adjacent.yaml",
+                                    "tests/scenes/verify/pentagon-brick.yaml", "tests/bench/scale.yaml");
   auto opened = open(path, 30);
   const auto scene = trace::prepare(*opened.room);
   std::mt19937 random(20265);
@@ -105,8 +106,9 @@ TEST_CASE("closed rooms stay closed when copies are merged", "[watertight]") {
       CHECK(compiled->report.triangles <= *less.budget);
     }
     const test::Holes found = test::holes(opened, compiled->product, scene);
-    INFO(path << " min_pixels " << opened.scene.cover.min_pixels << ": " << compiled->report.copies << " copies, " << compiled->report.curtains << " curtains, "
-              << found.first << ", tolerance " << compiled->report.tolerance_px << " curtains dropped " << compiled->report.curtains_dropped);
+    INFO(path << " min_pixels " << opened.scene.cover.min_pixels << ": " << compiled->report.copies << " copies, "
+              << compiled->report.curtains << " curtains, " << found.first << ", tolerance " << compiled->report.tolerance_px
+              << " curtains dropped " << compiled->report.curtains_dropped);
     CHECK(found.wrong == 0);
   }
 }

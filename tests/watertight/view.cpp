@@ -139,7 +139,8 @@ std::vector<scene::Color> picture(const driver::Product& product) {
     const double t = dot(normal, corner[0]) / dot(normal, d), area = dot(normal, normal);
     if (!(t < nearest[pixel].depth) || !(area > 0)) return;
     const Vector3 p = t * d;
-    const double b1 = dot(cross(p - corner[0], corner[2] - corner[0]), normal) / area, b2 = dot(cross(corner[1] - corner[0], p - corner[0]), normal) / area;
+    const double b1 = dot(cross(p - corner[0], corner[2] - corner[0]), normal) / area,
+                 b2 = dot(cross(corner[1] - corner[0], p - corner[0]), normal) / area;
     const auto uv = [&](std::size_t k) { return product.uv[product.indices[triangle + k]]; };
     nearest[pixel] = {t, triangle, uv(0)[0] + b1 * (uv(1)[0] - uv(0)[0]) + b2 * (uv(2)[0] - uv(0)[0]),
                       uv(0)[1] + b1 * (uv(1)[1] - uv(0)[1]) + b2 * (uv(2)[1] - uv(0)[1])};

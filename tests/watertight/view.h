@@ -18,7 +18,8 @@ void move_eye(driver::Opened& opened, std::mt19937& random, int width, int heigh
 /// through a shared edge is always counted by one of its two triangles, in exact agreement of their signs.
 std::vector<bool> covered(const driver::Product& product);
 
-/// What the pixels' centres see of it: linear colours, from the atlas (nearest texel) times the copy's tint; the background where there is no triangle.
+/// What the pixels' centres see of it: linear colours, from the atlas (nearest texel) times the copy's tint; the background where there is
+/// no triangle.
 std::vector<scene::Color> picture(const driver::Product& product);
 
 /// Of the pixels that see none, those where the mirrors themselves lead to something, at the pixel's centre and around it: holes.

@@ -104,8 +104,8 @@ TEST_CASE("no vertex lies within an edge that has no neighbour", "[watertight]")
     opened.scene.cover.max_bounces =
         std::min(opened.scene.cover.max_bounces, opened.room->room.space == geometry::Space::spherical ? 6 : 2);
     test::move_eye(opened, random, 320, 240);
-    // A frame is a surface of its own, which stands before its wall and shares no edge with it; its open back meets its mirror image. And bending
-    // treats part by part.
+    // A frame is a surface of its own, which stands before its wall and shares no edge with it; its open back meets its mirror image. And
+    // bending treats part by part.
     std::vector<std::vector<place::PlacedMesh>> surfaces(1);
     for (const place::PlacedMesh& part : opened.room->parts)
       if (part.kind == place::PartKind::frame) surfaces.push_back({part});

@@ -92,7 +92,8 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
       for (int j = 0; j < kSteps; ++j) {
         const double r = 0.25 * (i + 0.5) / kSteps, phi = 2 * kPi * (j + 0.5) / kSteps;
         const geometry::Point at = geometry::point_along(space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
-        by_falloff += light::irradiance(l.field, {{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false}).r * geometry::sin_k(space, r) * 0.25 / kSteps * 2 * kPi / kSteps;
+        by_falloff += light::irradiance(l.field, {{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false}).r * geometry::sin_k(space, r) * 0.25 /
+                      kSteps * 2 * kPi / kSteps;
       }
     INFO(notation << ": " << by_directions << ", " << by_falloff);
     CHECK(by_directions == Approx(by_falloff).epsilon(0.012));
@@ -101,7 +102,8 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
 
 TEST_CASE("the light of a lamp, asked at random places of a closed room, is its power, in all three spaces and for every kind", "[light]") {
   for (const char* notation : {"*222", "*2222", "*22222"})
-    for (const scene::LampKind kind : {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::disk, scene::LampKind::rectangle, scene::LampKind::spot}) {
+    for (const scene::LampKind kind :
+         {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::disk, scene::LampKind::rectangle, scene::LampKind::spot}) {
       const Lit l = lit(notation, 1, false, kind);
       const room::Room& room = l.room.room;
       light::Random random(17);

@@ -18,7 +18,8 @@ inline place::PlacedMesh ball(Space space, const Point& centre, double radius, d
   const std::uint32_t bottom = add(0, 0, z - radius);
   for (int i = 1; i < rings; ++i)
     for (int j = 0; j < around; ++j) {
-      const double latitude = -kPi / 2 + kPi * i / rings, r = radius * (1 - random.unit() * 0.3 / rings);  // flat enough to be seen whole from near its centre
+      // Flat enough to be seen whole from near its centre
+      const double latitude = -kPi / 2 + kPi * i / rings, r = radius * (1 - random.unit() * 0.3 / rings);
       add(r * std::cos(latitude), 2 * kPi * j / around, z + r * std::sin(latitude));
     }
   const std::uint32_t top = add(0, 0, z + radius);
@@ -36,7 +37,9 @@ inline place::PlacedMesh ball(Space space, const Point& centre, double radius, d
 }
 
 inline place::PlacedRoom room_of(Space space) {
-  return furnished(space == Space::hyperbolic ? regular_room(space, 5, 2) : space == Space::euclidean ? regular_room(space, 4, 2) : regular_room(space, 3, 2));
+  return furnished(space == Space::hyperbolic  ? regular_room(space, 5, 2)
+                   : space == Space::euclidean ? regular_room(space, 4, 2)
+                                               : regular_room(space, 3, 2));
 }
 
 /// Rays from inside a closed surface, aimed at its vertices, the middles and other points of its edges: how many get out.
@@ -52,7 +55,8 @@ inline int leaks(Space space, int rays, std::uint64_t seed) {
     const auto& mesh = placed.parts[0];
     const auto move = geometry::translation_to(space, centre);
     for (int i = 0; i < rays; ++i) {
-      const geometry::Position from{move * at_polar(space, 0.06 * random.unit(), random.between(0, 2 * kPi)), 0.5 + random.between(-0.06, 0.06)};
+      const geometry::Position from{move * at_polar(space, 0.06 * random.unit(), random.between(0, 2 * kPi)),
+                                    0.5 + random.between(-0.06, 0.06)};
       const auto& t = mesh.triangles[random.bits() % mesh.triangles.size()];
       const std::uint32_t a = t[random.bits() % 3], b = t[random.bits() % 3];
       const double u = i % 3 == 0 ? 0 : i % 3 == 1 ? 0.5 : random.unit();
@@ -142,7 +146,8 @@ inline geometry::Position integrate(const place::PlacedRoom& placed, const Ray& 
     n /= std::abs(n);
     s.dz -= 2 * (s.dz * std::conj(n)).real() * n;
   }
-  return {geometry::point_from_disk(space, {static_cast<double>(s.z.real()), static_cast<double>(s.z.imag())}), ray.z + ray.m * static_cast<double>(length)};
+  return {geometry::point_from_disk(space, {static_cast<double>(s.z.real()), static_cast<double>(s.z.imag())}),
+          ray.z + ray.m * static_cast<double>(length)};
 }
 
 }  // namespace orbc::trace::testing

@@ -41,7 +41,9 @@ void compare(const place::PlacedRoom& placed, int rays, double steep, Random& ra
     const Ambient sum = fast.b[0] * mesh.floor[t[0]] + fast.b[1] * mesh.floor[t[1]] + fast.b[2] * mesh.floor[t[2]];
     const auto at = position_at(space, ray, fast.t);
     const double z = fast.b[0] * mesh.z[t[0]] + fast.b[1] * mesh.z[t[1]] + fast.b[2] * mesh.z[t[2]];
-    tally.residual = std::max(tally.residual, std::hypot(geometry::distance(space, geometry::normalised_point(space, sum), at.floor), z - at.z) / std::max(fast.t, 1e-3));
+    tally.residual =
+        std::max(tally.residual, std::hypot(geometry::distance(space, geometry::normalised_point(space, sum), at.floor), z - at.z) /
+                                     std::max(fast.t, 1e-3));
   }
 }
 
@@ -58,11 +60,14 @@ TEST_CASE("a million rays in every space meet what trying all triangles in doubl
       for (int scene = 0; scene < 5; ++scene) {
         auto placed = furnished(room);
         if (scene < 2) placed.parts.push_back(soup_of(placed, scene == 0 ? 40 : 300, scene == 0 ? 1.0 : 0.12, random));
-        else placed.parts.push_back(torus_knot(room.space, room.corners.size() > 2 ? Point() : at_polar(room.space, 0.4, 1), 0.2, 0.06, 0.5, scene == 2 ? 14 : 30, scene == 2 ? 5 : 8));
+        else
+          placed.parts.push_back(torus_knot(room.space, room.corners.size() > 2 ? Point() : at_polar(room.space, 0.4, 1), 0.2, 0.06, 0.5,
+                                            scene == 2 ? 14 : 30, scene == 2 ? 5 : 8));
         placed.looks.resize(1);
         compare(placed, 200'000 / static_cast<int>(rooms.size()), scene == 4 ? 0.02 : 1, random, tally);
       }
-    INFO(tally.rays << " rays, " << tally.hits << " hits, " << tally.missed << " missed, " << tally.false_hits << " false, " << tally.elsewhere << " elsewhere, residual " << tally.residual);
+    INFO(tally.rays << " rays, " << tally.hits << " hits, " << tally.missed << " missed, " << tally.false_hits << " false, "
+                    << tally.elsewhere << " elsewhere, residual " << tally.residual);
     CHECK(tally.rays == 1'000'000);
     CHECK(tally.missed == 0);
     CHECK(tally.false_hits == 0);

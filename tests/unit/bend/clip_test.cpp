@@ -71,7 +71,8 @@ TEST_CASE("wedges around the eye divide a mesh without gap or overlap, vertex by
     CHECK(count == 1);
     if (!directed.count({edge.second, edge.first})) ++open;
   }
-  // The open edges are those of the mesh's own border, cut where borders pass; around the eye's axis the wedges' points there may differ in the last bits.
+  // The open edges are those of the mesh's own border, cut where borders pass; around the eye's axis the wedges' points there may differ in
+  // the last bits.
   const int outer = 4 * 5 + static_cast<int>(borders.size());
   CHECK(open <= outer + (away < 0.5 ? 2 * static_cast<int>(borders.size()) : 0));
 }

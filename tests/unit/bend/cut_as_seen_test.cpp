@@ -174,7 +174,8 @@ TEST_CASE("what reaches into a wedge is whole, and nothing that does is missing"
   constexpr int cells = 7;
   for (int i = 0; i <= cells; ++i)
     for (int j = 0; j <= cells; ++j) {
-      mesh.floor.push_back(geometry::translation_by(space, 0.8, 0) * geometry::translation_by(space, 0.9 * i / cells - 0.4, 0.9 * j / cells - 0.47) * geometry::Point());
+      mesh.floor.push_back(geometry::translation_by(space, 0.8, 0) *
+                           geometry::translation_by(space, 0.9 * i / cells - 0.4, 0.9 * j / cells - 0.47) * geometry::Point());
       mesh.z.push_back(0.1 * i - 0.05 * j);
     }
   for (int i = 0; i < cells; ++i)

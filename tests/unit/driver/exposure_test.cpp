@@ -16,8 +16,10 @@ namespace {
 
 driver::Opened opened(const std::string& more) {
   const auto path = std::filesystem::temp_directory_path() / ("orbc-exposure-" + std::to_string(getpid()) + ".yaml");
-  std::ofstream(path) << "orbc: 1\norbifold: \"*2222\"\nroom: {floor: {color: \"#b0b0b0\"}, ceiling: {color: \"#b0b0b0\"}, walls: {all: {mirror: none, color: \"#b0b0b0\"}}}\n"
-                         "camera: {at: {z: 0.45}, size: [8, 6]}\n" + more;
+  std::ofstream(path) << "orbc: 1\norbifold: \"*2222\"\nroom: {floor: {color: \"#b0b0b0\"}, ceiling: {color: \"#b0b0b0\"}, walls: {all: "
+                         "{mirror: none, color: \"#b0b0b0\"}}}\n"
+                         "camera: {at: {z: 0.45}, size: [8, 6]}\n" +
+                             more;
   auto done = driver::open_scene(path.string());
   std::filesystem::remove(path);
   REQUIRE(done);
@@ -34,7 +36,8 @@ bool exports(const driver::Opened& scene, int expected) {
   const driver::Product product = driver::compile(scene, {}, serial_executor()).value().product;
   std::size_t count = 0;
   for (const auto& uv : product.uv) {
-    const auto x = static_cast<std::size_t>(uv[0] * static_cast<float>(product.atlas.width)), y = static_cast<std::size_t>(uv[1] * static_cast<float>(product.atlas.height));
+    const auto x = static_cast<std::size_t>(uv[0] * static_cast<float>(product.atlas.width)),
+               y = static_cast<std::size_t>(uv[1] * static_cast<float>(product.atlas.height));
     count += product.atlas.rgba[4 * (y * static_cast<std::size_t>(product.atlas.width) + x)] == expected;
   }
   return count * 20 > product.uv.size();

@@ -15,11 +15,13 @@ namespace {
 
 driver::Opened opened(const std::string& more) {
   const auto path = std::filesystem::temp_directory_path() / ("orbc-native-" + std::to_string(getpid()) + ".yaml");
-  std::ofstream(path) << "orbc: 1\norbifold: \"*2222\"\nroom: {height: 0.9, walls: {all: {mirror: {reflectance: 0.8, tint: white}}}}\nobjects:\n"
-                         "  - {box: {size: [0.2, 0.2, 0.2]}, at: {polar: [0.3, 100deg]}, material: tomato}\n"
-                         "lights:\n  - {kind: sphere, at: {polar: [0.2, 200deg], z: 0.6}, radius: 0.05, power: 8}\n"
-                         "exposure: 0.5\nambient: white\n"
-                         "camera: {at: {polar: [0.3, 230deg], z: 0.45}, size: [40, 30]}\n" + more;
+  std::ofstream(path)
+      << "orbc: 1\norbifold: \"*2222\"\nroom: {height: 0.9, walls: {all: {mirror: {reflectance: 0.8, tint: white}}}}\nobjects:\n"
+         "  - {box: {size: [0.2, 0.2, 0.2]}, at: {polar: [0.3, 100deg]}, material: tomato}\n"
+         "lights:\n  - {kind: sphere, at: {polar: [0.2, 200deg], z: 0.6}, radius: 0.05, power: 8}\n"
+         "exposure: 0.5\nambient: white\n"
+         "camera: {at: {polar: [0.3, 230deg], z: 0.45}, size: [40, 30]}\n" +
+             more;
   auto done = driver::open_scene(path.string());
   std::filesystem::remove(path);
   REQUIRE(done);

@@ -57,7 +57,8 @@ TEST_CASE("the plan foresees copies exactly, and triangles, vertices and bytes w
 TEST_CASE("the plan foresees panels and budgets as well", "[driver]") {
   const Executor executor = driver::parallel_executor();
   const int which = GENERATE(0, 1, 2, 3);
-  auto opened = open_or_fail(std::string(ORBC_SOURCE_DIR) + (which == 3 ? "/tests/scenes/verify/pentagon-brick.yaml" : "/tests/bench/scale.yaml"));
+  auto opened =
+      open_or_fail(std::string(ORBC_SOURCE_DIR) + (which == 3 ? "/tests/scenes/verify/pentagon-brick.yaml" : "/tests/bench/scale.yaml"));
   driver::CompileOptions options;
   opened.scene.cover.max_bounces = which == 3 ? 4 : 34;
   opened.scene.cover.min_pixels = which == 2 ? 0 : 3;
@@ -75,7 +76,8 @@ TEST_CASE("the plan foresees panels and budgets as well", "[driver]") {
   if (which < 2) CHECK(r.curtains > 0);
   if (options.budget) CHECK(r.triangles <= *options.budget);
   // What a budget left out is said.
-  const bool said = std::any_of(compiled->notes.begin(), compiled->notes.end(), [](const Diagnostic& note) { return note.code == "driver.copies-left-out"; });
+  const bool said = std::any_of(compiled->notes.begin(), compiled->notes.end(),
+                                [](const Diagnostic& note) { return note.code == "driver.copies-left-out"; });
   CHECK(said == (r.left_out > 0));
   if (r.left_out > 0) CHECK((r.curtains > 0 || r.curtains_dropped));
 }

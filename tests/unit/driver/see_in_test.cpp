@@ -48,7 +48,8 @@ TEST_CASE("what is seen in chrome and glass of any copy is what the eye's own ra
       for (int y = 0; y < scene.eye.height; ++y) {
         for (int x = 0; x < scene.eye.width; ++x) {
           const render::Seen seen = render::radiance(traced, render::eye_ray(scene.eye, x + 0.5, y + 0.5), draw);
-          const bool ball = seen.hit && seen.surface.kind == place::PartKind::object && scene.room->parts[static_cast<std::size_t>(seen.surface.part)].name == "sphere";
+          const bool ball = seen.hit && seen.surface.kind == place::PartKind::object &&
+                            scene.room->parts[static_cast<std::size_t>(seen.surface.part)].name == "sphere";
           if (!ball) continue;
           // the copy that the eye's ray has come to: the one whose image of the eye it comes from
           for (const cover::Copy& copy : copies) {
@@ -58,7 +59,8 @@ TEST_CASE("what is seen in chrome and glass of any copy is what the eye's own ra
             if (trace::inner(scene.room->room.space, off, off) > 1e-12) continue;
             const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy, 0);
             ++met;
-            same += std::fabs(c.r - seen.radiance.r) < 1e-3 && std::fabs(c.g - seen.radiance.g) < 1e-3 && std::fabs(c.b - seen.radiance.b) < 1e-3;
+            same += std::fabs(c.r - seen.radiance.r) < 1e-3 && std::fabs(c.g - seen.radiance.g) < 1e-3 &&
+                    std::fabs(c.b - seen.radiance.b) < 1e-3;
           }
         }
       }

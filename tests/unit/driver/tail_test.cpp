@@ -107,6 +107,7 @@ TEST_CASE("curtains cover their mirrors", "[driver]") {
   for (std::size_t i = 0; i < panels.size(); ++i) {
     CHECK(panels[i].kind == place::PartKind::wall);
     CHECK(panels[i].wall == room.mirrors[i].wall);
-    for (const auto& p : panels[i].floor) CHECK(std::fabs(geometry::value_at(room.room.walls[static_cast<std::size_t>(panels[i].wall)].line, p)) < 1e-12);
+    for (const auto& p : panels[i].floor)
+      CHECK(std::fabs(geometry::value_at(room.room.walls[static_cast<std::size_t>(panels[i].wall)].line, p)) < 1e-12);
   }
 }

@@ -59,24 +59,29 @@ TEST_CASE("two squares become one primitive with the weights in its vertices", "
   // positions 8 × 12, uv 8 × 8, colours 8 × 8, indices 12 × 2, atlas
   const std::string total = std::to_string((248 + png.size() + 3) / 4 * 4);
   const double yfov = 2 * std::atan(std::tan(product.eye.fov.radians / 2) / (80.0 / 60));
-  CHECK(glb.json ==
-        R"({"asset":{"version":"2.0","generator":"orbc"},"extensionsUsed":["KHR_materials_unlit"],"scene":0,"scenes":[{"name":"*2222","nodes":[0,1]}],)"
-        R"("nodes":[{"name":"camera","camera":0,"matrix":[0,0,1,0,0,1,0,0,-1,-0,0,0,0,0.5,0,1]},{"name":"copies","mesh":0}],)"
-        R"("cameras":[{"type":"perspective","perspective":{"yfov":)" + fmt::format("{}", yfov) + R"(,"aspectRatio":1.3333333333333333,"znear":0.01},)"
-        R"("extras":{"orbc_projection":"perspective","orbc_width":80,"orbc_height":60,"orbc_fov_deg":75,"orbc_background":[0.25,0.5,0.75]}}],)"
-        R"("meshes":[{"name":"copies","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"indices":3,"material":0}]}],)"
-        R"("materials":[{"name":"atlas","doubleSided":true,"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":0,"roughnessFactor":1},)"
-        R"("extensions":{"KHR_materials_unlit":{}}}],"textures":[{"sampler":0,"source":0}],)"
-        R"("samplers":[{"magFilter":9728,"minFilter":9728,"wrapS":33071,"wrapT":33071}],"images":[{"name":"atlas","bufferView":4,"mimeType":"image/png"}],)"
-        R"("accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[2,0,-1],"max":[3,1.5,1]},)"
-        R"({"bufferView":1,"componentType":5126,"count":8,"type":"VEC2"},{"bufferView":2,"componentType":5123,"count":8,"type":"VEC4","normalized":true},)"
-        R"({"bufferView":3,"componentType":5123,"count":12,"type":"SCALAR"}],)"
-        R"("bufferViews":[{"buffer":0,"byteLength":96,"byteStride":12,"target":34962},{"buffer":0,"byteOffset":96,"byteLength":64,"byteStride":8,"target":34962},)"
-        R"({"buffer":0,"byteOffset":160,"byteLength":64,"byteStride":8,"target":34962},{"buffer":0,"byteOffset":224,"byteLength":24,"target":34963},)"
-        R"({"buffer":0,"byteOffset":248,"byteLength":)" + std::to_string(png.size()) + R"(}],"buffers":[{"byteLength":)" + total + R"(}],)"
-        R"("extras":{"orbc_copies":[)"
-        R"({"word":"","bounces":0,"sheet":0,"reversing":false,"weight":[1,1,1],"distance":0,"level":0,"primitive":0,"first_index":0,"index_count":6},)"
-        R"({"word":"2 1","bounces":2,"sheet":0,"reversing":false,"weight":[0.81,0.6561,0.5],"distance":1.5,"level":0,"primitive":0,"first_index":6,"index_count":6}]}})");
+  CHECK(
+      glb.json ==
+      R"({"asset":{"version":"2.0","generator":"orbc"},"extensionsUsed":["KHR_materials_unlit"],"scene":0,"scenes":[{"name":"*2222","nodes":[0,1]}],)"
+      R"("nodes":[{"name":"camera","camera":0,"matrix":[0,0,1,0,0,1,0,0,-1,-0,0,0,0,0.5,0,1]},{"name":"copies","mesh":0}],)"
+      R"("cameras":[{"type":"perspective","perspective":{"yfov":)" +
+          fmt::format("{}", yfov) +
+          R"(,"aspectRatio":1.3333333333333333,"znear":0.01},)"
+          R"("extras":{"orbc_projection":"perspective","orbc_width":80,"orbc_height":60,"orbc_fov_deg":75,"orbc_background":[0.25,0.5,0.75]}}],)"
+          R"("meshes":[{"name":"copies","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"indices":3,"material":0}]}],)"
+          R"("materials":[{"name":"atlas","doubleSided":true,"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":0,"roughnessFactor":1},)"
+          R"("extensions":{"KHR_materials_unlit":{}}}],"textures":[{"sampler":0,"source":0}],)"
+          R"("samplers":[{"magFilter":9728,"minFilter":9728,"wrapS":33071,"wrapT":33071}],"images":[{"name":"atlas","bufferView":4,"mimeType":"image/png"}],)"
+          R"("accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[2,0,-1],"max":[3,1.5,1]},)"
+          R"({"bufferView":1,"componentType":5126,"count":8,"type":"VEC2"},{"bufferView":2,"componentType":5123,"count":8,"type":"VEC4","normalized":true},)"
+          R"({"bufferView":3,"componentType":5123,"count":12,"type":"SCALAR"}],)"
+          R"("bufferViews":[{"buffer":0,"byteLength":96,"byteStride":12,"target":34962},{"buffer":0,"byteOffset":96,"byteLength":64,"byteStride":8,"target":34962},)"
+          R"({"buffer":0,"byteOffset":160,"byteLength":64,"byteStride":8,"target":34962},{"buffer":0,"byteOffset":224,"byteLength":24,"target":34963},)"
+          R"({"buffer":0,"byteOffset":248,"byteLength":)" +
+          std::to_string(png.size()) + R"(}],"buffers":[{"byteLength":)" + total +
+          R"(}],)"
+          R"("extras":{"orbc_copies":[)"
+          R"({"word":"","bounces":0,"sheet":0,"reversing":false,"weight":[1,1,1],"distance":0,"level":0,"primitive":0,"first_index":0,"index_count":6},)"
+          R"({"word":"2 1","bounces":2,"sheet":0,"reversing":false,"weight":[0.81,0.6561,0.5],"distance":1.5,"level":0,"primitive":0,"first_index":6,"index_count":6}]}})");
   CHECK(at<float>(glb.bin, 0) == 2.0f);        // (2, −0.25, 0) → (2, 0, 0.25)
   CHECK(at<float>(glb.bin, 4) == 0.0f);
   CHECK(at<float>(glb.bin, 8) == 0.25f);
@@ -144,7 +149,8 @@ TEST_CASE("copies that do not follow one another become primitives of their own"
   driver::Product product = test::two_squares();
   std::swap(product.copies[0], product.copies[1]);
   const Glb glb = split(gltf::write_gltf(product)[0].bytes);
-  CHECK(contains(glb.json, R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"indices":3,"material":0},{"attributes":{"POSITION":4,)"));
+  CHECK(contains(glb.json,
+                 R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"indices":3,"material":0},{"attributes":{"POSITION":4,)"));
   CHECK(contains(glb.json, R"("primitive":1,"first_index":0,"index_count":6)"));
   CHECK(at<float>(glb.bin, 0) == 3.0f);  // the parts are written in the order of the copies
   CHECK(at<std::uint16_t>(glb.bin, 160) == 53083);

@@ -196,7 +196,8 @@ TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight"
   REQUIRE(atlas.deep.rgb.size() == atlas.image.rgba.size() / 4 * 3);
   double worst_8 = 0, worst_16 = 0;
   const auto judge = [&](double u, double v, const scene::Color& wanted) {
-    const std::size_t at = static_cast<std::size_t>(v * atlas.image.height) * static_cast<std::size_t>(atlas.image.width) + static_cast<std::size_t>(u * atlas.image.width);
+    const std::size_t at = static_cast<std::size_t>(v * atlas.image.height) * static_cast<std::size_t>(atlas.image.width) +
+                           static_cast<std::size_t>(u * atlas.image.width);
     const double own[] = {wanted.r, wanted.g, wanted.b};
     for (std::size_t c = 0; c < 3; ++c) {
       worst_8 = std::max(worst_8, std::fabs(scene::decode_srgb(atlas.image.rgba[4 * at + c] / 255.0) - own[c]));
@@ -210,7 +211,8 @@ TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight"
       const Texel own = texel(room.textures[0], x, y);
       const double s = (x + 0.5) / 16, t = (y + 0.5) / 16;
       judge((1 - s) * uv[0][0] + s * uv[1][0], (1 - t) * uv[0][1] + t * uv[2][1],
-            room.looks[0].color * scene::Color{scene::decode_srgb(own[0] / 255.0), scene::decode_srgb(own[1] / 255.0), scene::decode_srgb(own[2] / 255.0)});
+            room.looks[0].color *
+                scene::Color{scene::decode_srgb(own[0] / 255.0), scene::decode_srgb(own[1] / 255.0), scene::decode_srgb(own[2] / 255.0)});
     }
   CHECK(worst_8 > 1e-3);
   CHECK(worst_16 < 2e-5);   // half a step of 1/65535, at most 2.3 of them in linear light
@@ -227,7 +229,8 @@ TEST_CASE("holes of a picture are transparent in the atlas, and only there is an
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         const double s = (x + 0.5) / image.width, t = (y + 0.5) / image.height;
-        const Texel got = nearest(atlas.image, (1 - s) * uv[0][0] + s * uv[1][0], (1 - t) * uv[0][1] + t * uv[2][1]), own = texel(image, x, y);
+        const Texel got = nearest(atlas.image, (1 - s) * uv[0][0] + s * uv[1][0], (1 - t) * uv[0][1] + t * uv[2][1]),
+                    own = texel(image, x, y);
         REQUIRE(got[3] == (own[3] < cutoff * 255 ? 0 : 255));
         REQUIRE(got[0] == own[0]);
       }

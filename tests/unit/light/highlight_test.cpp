@@ -153,7 +153,8 @@ TEST_CASE("the eye sees a point of a copy where its log map takes it", "[light]"
       const geometry::Point there = geometry::inverse(s.eye.room_from_eye) * (copy.cover_from_room * at.floor);
       const double arc = geometry::arc_k(s.eye.room_from_eye.space, there.w, std::hypot(there.x, there.y));
       const double flat = arc / std::hypot(there.x, there.y);
-      const geometry::Vector3 bent = geometry::normalised({flat * there.x, flat * there.y, copy.storey.sign * at.z + copy.storey.offset - s.eye.z});
+      const geometry::Vector3 bent =
+          geometry::normalised({flat * there.x, flat * there.y, copy.storey.sign * at.z + copy.storey.offset - s.eye.z});
       CHECK(geometry::length(*seen - bent) < 1e-9);
     }
   }
@@ -172,7 +173,8 @@ TEST_CASE("a side takes as many pixels in the picture as its ends lie apart ther
       for (const double turn : {0.2, 1.3, 2.9}) {
         for (const double rise : {0.0, 0.7}) {
           // Straight from the centre of the room, where ambient x and y are lengths.
-          const geometry::Position next{geometry::normalised_point(space, {1, step * std::cos(turn), step * std::sin(turn)}), at.z + rise * step};
+          const geometry::Position next{geometry::normalised_point(space, {1, step * std::cos(turn), step * std::sin(turn)}),
+                                        at.z + rise * step};
           const trace::Direction side{{0, std::cos(turn), std::sin(turn)}, rise};
           const auto a = light::direction_from_eye(copy, s.eye, at), b = light::direction_from_eye(copy, s.eye, next);
           REQUIRE((a && b));

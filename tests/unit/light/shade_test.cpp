@@ -52,7 +52,9 @@ Lit lit(scene::Scene scene, int bounces) {
   return result;
 }
 
-double on_floor(const Lit& l, const geometry::Point& p, double z, double up) { return light::irradiance(l.field, {{p, z}, {{0, 0, 0}, up}, {p, z}, -1, false}).r; }
+double on_floor(const Lit& l, const geometry::Point& p, double z, double up) {
+  return light::irradiance(l.field, {{p, z}, {{0, 0, 0}, up}, {p, z}, -1, false}).r;
+}
 
 // Power that arrives on floor, ceiling and walls together: midpoint sums over polar coordinates and over (arc, height).
 double flux(const Lit& l) {
@@ -72,7 +74,8 @@ double flux(const Lit& l) {
     for (int i = 0; i < kAlong; ++i)
       for (int j = 0; j < kAlong; ++j) {
         const Position at{room::point_on_wall(room, w, room.walls[w].length * (i + 0.5) / kAlong), height * (j + 0.5) / kAlong};
-        sum += room.walls[w].length / kAlong * height / kAlong * light::irradiance(l.field, {at, trace::normal_of_wall(room.space, room.walls[w]), at, w, false}).r;
+        sum += room.walls[w].length / kAlong * height / kAlong *
+               light::irradiance(l.field, {at, trace::normal_of_wall(room.space, room.walls[w]), at, w, false}).r;
       }
   return sum;
 }
@@ -81,12 +84,14 @@ double flux(const Lit& l) {
 
 TEST_CASE("the falloff of E² is the inverse square, and all spaces agree with it near the lamp", "[light]") {
   CHECK(light::geodesic_falloff(Space::euclidean, 2, 1.3, 0.01) == Approx(1 / (16 * kPi)));
-  for (const Space space : {Space::hyperbolic, Space::spherical}) CHECK(light::geodesic_falloff(space, 0.02, 0.015, 0.001) == Approx(1 / (4 * kPi * 0.0004)).epsilon(1e-4));
+  for (const Space space : {Space::hyperbolic, Space::spherical})
+    CHECK(light::geodesic_falloff(space, 0.02, 0.015, 0.001) == Approx(1 / (4 * kPi * 0.0004)).epsilon(1e-4));
   CHECK(light::geodesic_falloff(Space::euclidean, 1e-9, 0, 0.05) == Approx(1 / (4 * kPi * 0.0025)));
 }
 
 TEST_CASE("the focus at the antipode is as bright as a lamp of that radius allows, and no more", "[light]") {
-  const double at = light::geodesic_falloff(Space::spherical, kPi, kPi, 0.05), beside = light::geodesic_falloff(Space::spherical, kPi - 0.05, kPi - 0.05, 0.05);
+  const double at = light::geodesic_falloff(Space::spherical, kPi, kPi, 0.05),
+               beside = light::geodesic_falloff(Space::spherical, kPi - 0.05, kPi - 0.05, 0.05);
   CHECK(std::isfinite(at));
   CHECK(at == Approx(1 / (4 * kPi * kPi * std::sin(0.05))).epsilon(0.01));
   CHECK(at == Approx(beside).epsilon(0.05));
@@ -206,7 +211,8 @@ TEST_CASE("the normals of a ball are those of the sphere, those of a box are its
     const double z = (l.room.parts[ball].z[v.vertex] - 0.1) / 0.1;
     CHECK(v.normal.z == Approx(z).margin(0.05));
   }
-  for (const light::ShadingVertex& v : l.field.normals[box].vertices) CHECK(std::min(std::fabs(std::fabs(v.normal.z) - 1), std::fabs(v.normal.z)) < 1e-9);
+  for (const light::ShadingVertex& v : l.field.normals[box].vertices)
+    CHECK(std::min(std::fabs(std::fabs(v.normal.z) - 1), std::fabs(v.normal.z)) < 1e-9);
 }
 
 TEST_CASE("the bake holds the light of every point, and the same bytes for any executor", "[light]") {
@@ -219,7 +225,9 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   light::BakeOptions options;
   options.coarse = 12, options.fine = 48;
   const light::Baked baked = light::bake(l.room, l.field, options, serial_executor()).value();
-  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) { for (std::size_t i = count; i-- > 0;) task(i); };
+  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    for (std::size_t i = count; i-- > 0;) task(i);
+  };
   CHECK(light::bake(l.room, l.field, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
   CHECK(baked.atlas.deep.rgb.empty());
   options.deep = true;
@@ -281,10 +289,17 @@ TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the 
       if (baked.blocks[p][i].second >= 0) box[static_cast<std::size_t>(baked.blocks[p][i].second)] = &baked.boxes[p][i];
     }
     for (std::size_t t = 0; t < box.size(); ++t)
-      for (const std::array<double, 3>& b : {std::array{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {0.5, 0.5, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}, {0.3, 0.3, 0.4}}) {
+      for (const std::array<double, 3>& b : {std::array{1.0, 0.0, 0.0},
+                                             {0.0, 1.0, 0.0},
+                                             {0.0, 0.0, 1.0},
+                                             {0.5, 0.5, 0.0},
+                                             {0.0, 0.5, 0.5},
+                                             {0.5, 0.0, 0.5},
+                                             {0.3, 0.3, 0.4}}) {
         double at[2] = {0, 0};
         for (std::size_t k = 0; k < 3; ++k)
-          for (std::size_t c = 0; c < 2; ++c) at[c] += b[k] * static_cast<double>(baked.atlas.uv[p][baked.atlas.room.parts[p].triangles[t][k]][c]);
+          for (std::size_t c = 0; c < 2; ++c)
+            at[c] += b[k] * static_cast<double>(baked.atlas.uv[p][baked.atlas.room.parts[p].triangles[t][k]][c]);
         const double x = at[0] * image.width - 0.5, y = at[1] * image.height - 0.5;
         constexpr double kNothing = 2e-3;   // of a texel: what single precision leaves
         REQUIRE(x > box[t]->x - kNothing);
@@ -296,7 +311,8 @@ TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the 
 }
 
 TEST_CASE("solid patterns are the same stone everywhere and stay between their colours", "[light]") {
-  CHECK(light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2) == light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2));
+  CHECK(light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2) ==
+        light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2));
   for (const scene::Pattern pattern : {scene::Pattern::marble, scene::Pattern::wood, scene::Pattern::granite}) {
     double low = 1, high = 0, jump = 0, last = 0;
     for (int i = 0; i < 4000; ++i) {

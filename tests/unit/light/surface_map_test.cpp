@@ -72,7 +72,8 @@ TEST_CASE("where light ends on floor, ceiling or a wall is found on its triangle
       worst = std::max(worst, missed(p, map, {at, 0}, trace::Target::floor, -1));
       worst = std::max(worst, missed(p, map, {at, p.room.height}, trace::Target::ceiling, -1));
       const int w = static_cast<int>(even(random) * static_cast<double>(room.walls.size()));
-      const Position on_wall{room::point_on_wall(room, w, room.walls[static_cast<std::size_t>(w)].length * even(random)), p.room.height * even(random)};
+      const Position on_wall{room::point_on_wall(room, w, room.walls[static_cast<std::size_t>(w)].length * even(random)),
+                             p.room.height * even(random)};
       worst = std::max(worst, missed(p, map, on_wall, trace::Target::wall, w));
     }
     INFO(notation);
@@ -100,7 +101,9 @@ TEST_CASE("light passed on in half spheres and lunes is a number everywhere", "[
       for (const light::Box& box : baked.boxes[part])
         for (int y = box.y; y < box.y + box.height; ++y)
           for (int x = box.x; x < box.x + box.width; ++x) {
-            const std::uint8_t* texel = baked.atlas.image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(baked.atlas.image.width) + static_cast<std::size_t>(x));
+            const std::uint8_t* texel =
+                baked.atlas.image.rgba.data() +
+                4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(baked.atlas.image.width) + static_cast<std::size_t>(x));
             black += texel[0] == 0 && texel[1] == 0 && texel[2] == 0;
           }
     INFO(notation);

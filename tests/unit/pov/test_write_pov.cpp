@@ -115,17 +115,20 @@ TEST_CASE("base64 agrees with the test vectors of RFC 4648 and breaks its lines"
 TEST_CASE("panorama and cylinder cameras are written in the forms that were measured", "[pov]") {
   driver::Product product = test::two_squares();
   product.eye.projection = scene::Projection::panorama;
-  CHECK(contains(pov::write_pov(product)[0].bytes, "spherical\n  location <0,0,0.5>\n  direction <1,0,0>\n  right <-0,1,-0>\n  up <-0,-0,-1>\n  angle 360 180"));
+  CHECK(contains(pov::write_pov(product)[0].bytes,
+                 "spherical\n  location <0,0,0.5>\n  direction <1,0,0>\n  right <-0,1,-0>\n  up <-0,-0,-1>\n  angle 360 180"));
   product.eye.projection = scene::Projection::cylinder;
   product.eye.fov = Angle::from_degrees(180);
   const std::string height = fmt::format("{}", product.eye.fov.radians * 0.75);
-  CHECK(contains(pov::write_pov(product)[0].bytes, "cylinder 1\n  location <0,0,0.5>\n  direction <1,0,0>\n  right <0,-1,0>\n  up <0,0," + height + ">\n  angle 180"));
+  CHECK(contains(pov::write_pov(product)[0].bytes,
+                 "cylinder 1\n  location <0,0,0.5>\n  direction <1,0,0>\n  right <0,-1,0>\n  up <0,0," + height + ">\n  angle 180"));
 }
 
 TEST_CASE("the flat view puts the camera where the eye stands in the disk chart", "[pov]") {
   driver::Product product = test::two_squares();
   product.flat_view = true;
-  product.eye.room_from_eye = geometry::translation_by(geometry::Space::hyperbolic, 0, 1) * geometry::rotation(geometry::Space::hyperbolic, std::numbers::pi / 2);
+  product.eye.room_from_eye =
+      geometry::translation_by(geometry::Space::hyperbolic, 0, 1) * geometry::rotation(geometry::Space::hyperbolic, std::numbers::pi / 2);
   const std::string text = pov::write_pov(product)[0].bytes;
   CHECK(contains(text, fmt::format(",{},0.5>", std::tanh(0.5))));
   const std::size_t at = text.find("direction <") + 11;
@@ -185,7 +188,8 @@ TEST_CASE("an atlas with holes has a mask beside it, one of more bits its own fi
   product.atlas.rgba[3] = 0;
   const auto masked = pov::write_pov(product, {.name = "leaf"});
   REQUIRE(masked.size() == 3);
-  CHECK(contains(masked[0].bytes, "image_pattern { png \"leaf-mask.png\" } pigment_map { [0.5 rgbt 1] [0.5 image_map { png \"leaf-atlas.png\" }] }"));
+  CHECK(contains(masked[0].bytes,
+                 "image_pattern { png \"leaf-mask.png\" } pigment_map { [0.5 rgbt 1] [0.5 image_map { png \"leaf-atlas.png\" }] }"));
   const mesh::Image mask = mesh::decode_png(masked[1].bytes).value(), atlas = mesh::decode_png(masked[2].bytes).value();
   CHECK((mask.rgba[0] == 0 && mask.rgba[4] == 255));
   CHECK((atlas.rgba[0] == 255 && atlas.rgba[3] == 255));

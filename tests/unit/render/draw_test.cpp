@@ -117,7 +117,8 @@ TEST_CASE("drawn in streams the film is that of single rays, bit by bit", "[rend
             const render::Seen seen = render::radiance(scene, render::eye_ray(eye, x + points[i][0], y + points[i][1]), options);
             sum = sum + seen.radiance;
             if (i > 0) continue;
-            different += film.bounces[pixel] != seen.path.bounces || (seen.hit && film.depth[pixel] != static_cast<float>(seen.path.length));
+            different +=
+                film.bounces[pixel] != seen.path.bounces || (seen.hit && film.depth[pixel] != static_cast<float>(seen.path.length));
             objects += seen.hit && seen.surface.kind == place::PartKind::object;
           }
           sum = (1.0 / 3) * sum;
@@ -184,8 +185,10 @@ TEST_CASE("the film does not depend on the order in which tiles are drawn", "[re
   };
   render::DrawOptions options;
   options.samples = 4;
-  const render::Film a = render::draw(scene, eye_in(room), options, serial_executor()), b = render::draw(scene, eye_in(room), options, backwards);
-  for (std::size_t i = 0; i < a.color.size(); ++i) CHECK((a.color[i].r == b.color[i].r && a.color[i].b == b.color[i].b && a.depth[i] == b.depth[i]));
+  const render::Film a = render::draw(scene, eye_in(room), options, serial_executor()),
+                     b = render::draw(scene, eye_in(room), options, backwards);
+  for (std::size_t i = 0; i < a.color.size(); ++i)
+    CHECK((a.color[i].r == b.color[i].r && a.color[i].b == b.color[i].b && a.depth[i] == b.depth[i]));
   CHECK(render::to_exr(a) == render::to_exr(b));
 }
 
@@ -195,13 +198,18 @@ TEST_CASE("bytes of a picture are the rounded encoded values, whichever way they
   for (std::size_t i = 0; i < film.color.size(); ++i) {
     const auto draw = [&] { return static_cast<double>((state = state * 6364136223846793005u + 1442695040888963407u) >> 11) * 0x1p-53; };
     const double step = scene::decode_srgb((static_cast<double>(i % 256) + 0.5) / 255);  // where bytes change
-    film.color[i] = {draw() * 1.2 - 0.1, draw() * draw() * 0.01, i < 512 ? step : i < 1024 ? std::nextafter(step, 0.0) : i < 1536 ? std::nextafter(step, 1.0) : draw()};
+    film.color[i] = {draw() * 1.2 - 0.1, draw() * draw() * 0.01,
+                     i < 512    ? step
+                     : i < 1024 ? std::nextafter(step, 0.0)
+                     : i < 1536 ? std::nextafter(step, 1.0)
+                                : draw()};
   }
   const mesh::Image image = render::to_image(film, 1);
   int different = 0;
   const auto byte = [](double v) { return std::lround(255 * scene::encode_srgb(v)); };
   for (std::size_t i = 0; i < film.color.size(); ++i)
-    different += image.rgba[4 * i] != byte(film.color[i].r) || image.rgba[4 * i + 1] != byte(film.color[i].g) || image.rgba[4 * i + 2] != byte(film.color[i].b) || image.rgba[4 * i + 3] != 255;
+    different += image.rgba[4 * i] != byte(film.color[i].r) || image.rgba[4 * i + 1] != byte(film.color[i].g) ||
+                 image.rgba[4 * i + 2] != byte(film.color[i].b) || image.rgba[4 * i + 3] != 255;
   CHECK(different == 0);
 }
 

@@ -46,7 +46,8 @@ render::Film draw(const place::PlacedRoom& room, int bounces) {
   return render::draw(trace::prepare(room), eye_in(room), options, serial_executor());
 }
 
-/// The same sum by a way of its own: in long double, the geodesic unreflected and the lines of the walls moved instead; storeys by division.
+/// The same sum by a way of its own: in long double, the geodesic unreflected and the lines of the walls moved instead; storeys by
+/// division.
 scene::Color unfolded(const place::PlacedRoom& room, const trace::Ray& ray, int bounces) {
   using Real = long double;
   const Real k = geometry::curvature(room.room.space);
@@ -80,7 +81,8 @@ scene::Color unfolded(const place::PlacedRoom& room, const trace::Ray& ray, int 
       }
       if (s > gone && s < best) best = s, wall = j;
     }
-    const Real storey = ray.m > 0 ? (storeys + 1) * room.height - ray.z : -storeys * room.height - ray.z;  // height gained at the next plane
+    // Height gained at the next plane
+    const Real storey = ray.m > 0 ? (storeys + 1) * room.height - ray.z : -storeys * room.height - ray.z;
     const Real to_plane = ray.m != 0 ? storey / ray.m : 1e30L, to_wall = ray.c > 0 ? best / ray.c : 1e30L;
     const bool plane = to_plane < to_wall;
     const bool up = (ray.m > 0) == (storeys % 2 == 0);
@@ -114,7 +116,8 @@ TEST_CASE("a closed room of mirrors that glow has the radiance E/(1 − ρ)", "[
       const render::Film film = draw(room_of(furnace(notation, {rho, rho, rho}, {e, e, e})), bounces);
       double worst = 0;
       for (const scene::Color& c : film.color)
-        worst = std::max({worst, std::fabs(c.r * (1 - rho) / e.r - 1), std::fabs(c.g * (1 - rho) / e.g - 1), std::fabs(c.b * (1 - rho) / e.b - 1)});
+        worst = std::max(
+            {worst, std::fabs(c.r * (1 - rho) / e.r - 1), std::fabs(c.g * (1 - rho) / e.g - 1), std::fabs(c.b * (1 - rho) / e.b - 1)});
       INFO(notation << " ρ = " << rho << ", " << bounces << " bounces: " << worst);
       CHECK(worst < 2e-5);
     }
@@ -151,13 +154,15 @@ TEST_CASE("mirrors that differ but glow like black bodies of one brightness show
 
 TEST_CASE("mirrors that differ in reflectance and glow are summed up in the order in which they are met", "[render]") {
   for (const char* notation : {"*222", "*233", "*2222", "*333", "*22222", "*2323"}) {
-    const place::PlacedRoom room = room_of(furnace(notation, {0.7, 0.35, 0.5}, {scene::Color{0.5, 0, 0.1}, scene::Color{0, 0.4, 0.1}, scene::Color{0.1, 0.1, 0.6}}));
+    const place::PlacedRoom room =
+        room_of(furnace(notation, {0.7, 0.35, 0.5}, {scene::Color{0.5, 0, 0.1}, scene::Color{0, 0.4, 0.1}, scene::Color{0.1, 0.1, 0.6}}));
     const place::Eye eye = eye_in(room);
     const render::Film film = draw(room, 14);
     double worst = 0, least = 9, most = 0;
     for (int y = 0; y < eye.height; ++y)
       for (int x = 0; x < eye.width; ++x) {
-        const scene::Color want = unfolded(room, render::eye_ray(eye, x + 0.5, y + 0.5), 14), got = film.color[static_cast<std::size_t>(y * eye.width + x)];
+        const scene::Color want = unfolded(room, render::eye_ray(eye, x + 0.5, y + 0.5), 14),
+                           got = film.color[static_cast<std::size_t>(y * eye.width + x)];
         worst = std::max({worst, std::fabs(want.r - got.r), std::fabs(want.g - got.g), std::fabs(want.b - got.b)});
         least = std::min(least, want.r), most = std::max(most, want.r);
       }

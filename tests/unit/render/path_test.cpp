@@ -76,7 +76,8 @@ struct Mean {
 Mean mean_of(const render::Film& film) {
   Mean mean;
   double squares = 0;
-  for (std::size_t i = 0; i < film.color.size(); ++i) mean.value += film.color[i].r, squares += static_cast<double>(film.error[i]) * film.error[i];
+  for (std::size_t i = 0; i < film.color.size(); ++i)
+    mean.value += film.color[i].r, squares += static_cast<double>(film.error[i]) * film.error[i];
   const double n = static_cast<double>(film.color.size());
   mean.value /= n, mean.error = std::sqrt(squares) / n;
   return mean;
@@ -168,7 +169,9 @@ TEST_CASE("the stated error of a path-traced film is the spread between seeds, a
     options.max_bounces = l->field.options.leg_bounces = 6;
     return render::draw(l->traced, eye_in(l->room, 32, 24), options, executor);
   };
-  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) { for (std::size_t i = count; i-- > 0;) task(i); };
+  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    for (std::size_t i = count; i-- > 0;) task(i);
+  };
   const render::Film a = draw(1, serial_executor()), b = draw(2, serial_executor()), again = draw(1, backwards);
   double squares = 0, stated = 0;
   for (std::size_t i = 0; i < a.color.size(); ++i) {
@@ -200,7 +203,8 @@ TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that
       const double e = light::irradiance_guess(l->field, point, random.next_three()).r;
       sum += e, squares += e * e;
     }
-    const double mean = sum / kCount, error = std::sqrt((squares / kCount - mean * mean) / kCount), all = light::irradiance(l->field, point).r;
+    const double mean = sum / kCount, error = std::sqrt((squares / kCount - mean * mean) / kCount),
+                 all = light::irradiance(l->field, point).r;
     INFO(notation << ": " << mean << " ± " << error << ", all " << all);
     CHECK(std::fabs(mean - all) < 4 * error + 0.005 * all);
   }
@@ -228,7 +232,8 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
       // From outside of the box towards its middle, just above the floor; and on the floor just in front of it.
       const double turn = 2 * std::numbers::pi * (side + 0.5) / 12;
       const geometry::Point middle = geometry::point_from_disk(geometry::Space::euclidean, std::polar(0.1, std::numbers::pi / 6));
-      const geometry::Position from{geometry::point_along(geometry::Space::euclidean, middle, geometry::Tangent(0, std::cos(turn), std::sin(turn)), 0.2), above};
+      const geometry::Position from{
+          geometry::point_along(geometry::Space::euclidean, middle, geometry::Tangent(0, std::cos(turn), std::sin(turn)), 0.2), above};
       for (const double down : {0.0, 0.7}) {
         const trace::Direction d{{0, -std::sqrt(1 - down * down) * std::cos(turn), -std::sqrt(1 - down * down) * std::sin(turn)}, -down};
         const trace::Ray ray = trace::ray_from(geometry::Space::euclidean, from, d);
@@ -239,8 +244,8 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
         const light::LightPoint at = light::light_point(l->field, l->room, point, hit);
         render::Chance chance(1, static_cast<std::uint64_t>(++compared), 0, 1);
         const scene::Color passed = render::passed_on(l->room, l->field, at, chance, 3000);
-        const scene::Color truth = light::radiance_out(l->field, l->room.looks[static_cast<std::size_t>(point.look)].material, {0.7, 0.7, 0.7},
-                                                       light::irradiance(l->field, at) + std::numbers::pi * passed);
+        const scene::Color truth = light::radiance_out(l->field, l->room.looks[static_cast<std::size_t>(point.look)].material,
+                                                       {0.7, 0.7, 0.7}, light::irradiance(l->field, at) + std::numbers::pi * passed);
         const double off = 255 * (scene::encode_srgb(shown->r) - scene::encode_srgb(truth.r));
         worst = std::max(worst, std::fabs(off));
         INFO("at height " << above << ", side " << side << ": baked " << shown->r << ", by paths " << truth.r);

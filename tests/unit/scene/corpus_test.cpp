@@ -74,6 +74,7 @@ TEST_CASE("print verdicts", "[.verdict]") {
   std::sort(files.begin(), files.end());
   for (const std::string& file : files) {
     const auto read = load_scene(file);
-    std::cout << "verdict\t" << std::filesystem::path(file).filename().string() << "\t" << (read ? "ok" : corpus::summary(read.error())) << "\n";
+    std::cout << "verdict\t" << std::filesystem::path(file).filename().string() << "\t" << (read ? "ok" : corpus::summary(read.error()))
+              << "\n";
   }
 }

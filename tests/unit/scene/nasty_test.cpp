@@ -42,7 +42,8 @@ TEST_CASE("big files are refused before they are parsed", "[scene]") {
 }
 
 TEST_CASE("deep nesting ends at its bound, not at the stack's", "[scene]") {
-  for (const char* piece : {"[", "{", "[{", "{a: ", "- ", "? ", "? - ", "[? ", "{? ", "a: [", "{[", "- ? ", "[[],", "!!map {", "&a [", "'':[", "- - - [", "\n- ", "{\"a\":"}) {
+  for (const char* piece : {"[", "{", "[{", "{a: ", "- ", "? ", "? - ", "[? ", "{? ", "a: [", "{[", "- ? ", "[[],", "!!map {", "&a [",
+                            "'':[", "- - - [", "\n- ", "{\"a\":"}) {
     INFO(piece);
     CHECK(verdict(repeated(piece, 100'000)) != "ok");
     CHECK(verdict(kHead + "room: " + repeated(piece, 100'000)) != "ok");
@@ -130,7 +131,8 @@ TEST_CASE("every prefix of a good scene is read or refused", "[scene]") {
 TEST_CASE("scenes with flipped, lost and doubled bytes are read or refused", "[scene]") {
   std::mt19937 random(20230915);
   const auto files = corpus::files("");
-  const std::string pieces[] = {"{", "}", "[", "]", ": ", "- ", "\n", "\n  ", "\"", "'", "#", "*", "&a ", "!", "|", ">", "%", "?", ",", "1e999", ".nan", "-", "~", "\t", "\r", "<<", "---", "é"};
+  const std::string pieces[] = {"{", "}", "[", "]", ": ", "- ",    "\n",   "\n  ", "\"", "'",  "#",  "*",  "&a ", "!",
+                                "|", ">", "%", "?", ",",  "1e999", ".nan", "-",    "~",  "\t", "\r", "<<", "---", "é"};
   for (int round = 0; round < 6000; ++round) {
     std::string bytes = corpus::bytes_of(files[random() % files.size()]);
     for (unsigned edits = 1 + random() % 6; edits > 0 && !bytes.empty(); --edits) {

@@ -130,7 +130,8 @@ TEST_CASE("objects have names, sizes and looks", "[scene]") {
   const Scene scene = good("objects").scene;
   std::vector<std::string> names;
   for (const Object& object : scene.objects) names.push_back(object.name);
-  CHECK(names == std::vector<std::string>{"Statue.of.liberty", "dragon", "sphere", "sphere-3", "sphere-2", "cylinder", "box", "torus", "the knot", "beam"});
+  CHECK(names == std::vector<std::string>{"Statue.of.liberty", "dragon", "sphere", "sphere-3", "sphere-2", "cylinder", "box", "torus",
+                                          "the knot", "beam"});
   CHECK(scene.objects[0].embedding == Embedding::exponential);
   CHECK(scene.objects[0].up == 'y');
   CHECK(scene.objects[0].turn.radians == -0.5);
@@ -305,7 +306,8 @@ TEST_CASE("a note of the notation is passed on", "[scene]") {
 }
 
 TEST_CASE("the sign of curvature is exact", "[scene]") {
-  const std::vector<std::pair<std::string, int>> known = {{"*", 1}, {"*22", 1}, {"*235", 1}, {"*333", 0}, {"*236", 0}, {"*2222", 0}, {"**", 0}, {"*237", -1}, {"*22222", -1}};
+  const std::vector<std::pair<std::string, int>> known = {{"*", 1},     {"*22", 1}, {"*235", 1},  {"*333", 0},   {"*236", 0},
+                                                          {"*2222", 0}, {"**", 0},  {"*237", -1}, {"*22222", -1}};
   for (const auto& [text, sign] : known) {
     INFO(text);
     CHECK(curvature_sign(*notation::parse(text)) == sign);

@@ -8,9 +8,22 @@ using namespace orbc;
 using namespace orbc::scene;
 
 TEST_CASE("the starter scene of every kind of room is read without a word", "[scene]") {
-  const std::vector<std::tuple<std::string, int, double>> rooms = {
-      {"*", 1, 1.57}, {"*22", 2, 0.78}, {"*(100)(100)", 2, 0.0157}, {"*222", 3, 0.62}, {"*235", 3, 0.19}, {"*22(50)", 3, 0.03}, {"*333", 3, 1}, {"*2222", 4, 1},
-      {"**", 4, 1}, {"*237", 3, 0.1}, {"*2323", 4, 0.4}, {"*22222", 5, 0.5}, {"*23456789(10)(11)", 10, 2.1}, {"*222", 3, 0}, {"*(3/2)(12)(12)", 3, 0.3}, {"*2 3 10", 3, 0.2}};
+  const std::vector<std::tuple<std::string, int, double>> rooms = {{"*", 1, 1.57},
+                                                                   {"*22", 2, 0.78},
+                                                                   {"*(100)(100)", 2, 0.0157},
+                                                                   {"*222", 3, 0.62},
+                                                                   {"*235", 3, 0.19},
+                                                                   {"*22(50)", 3, 0.03},
+                                                                   {"*333", 3, 1},
+                                                                   {"*2222", 4, 1},
+                                                                   {"**", 4, 1},
+                                                                   {"*237", 3, 0.1},
+                                                                   {"*2323", 4, 0.4},
+                                                                   {"*22222", 5, 0.5},
+                                                                   {"*23456789(10)(11)", 10, 2.1},
+                                                                   {"*222", 3, 0},
+                                                                   {"*(3/2)(12)(12)", 3, 0.3},
+                                                                   {"*2 3 10", 3, 0.2}};
   for (const auto& [notation, walls, inradius] : rooms) {
     const std::string text = starter_scene(notation, walls, inradius);
     const auto read = read_scene(SourceText{"new.yaml", text});

@@ -8,7 +8,11 @@ using namespace orbc::scene;
 namespace {
 
 Scene read(const std::string& more) {
-  return read_scene(SourceText{"white", "orbc: 1\norbifold: \"*2222\"\nlights: [{at: {z: 0.5}, temperature: 3000}]\nambient: \"#222222\"\n" + more}, "").value().scene;
+  return read_scene(SourceText{"white",
+                               "orbc: 1\norbifold: \"*2222\"\nlights: [{at: {z: 0.5}, temperature: 3000}]\nambient: \"#222222\"\n" + more},
+                    "")
+      .value()
+      .scene;
 }
 
 }  // namespace

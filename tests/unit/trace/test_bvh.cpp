@@ -32,7 +32,8 @@ Tally compare(const place::PlacedRoom& placed, const Bvh& bvh, int rays, Random&
     tally.hits += slow.triangle != kNone;
     if (!same(fast, slow)) {
       ++tally.wrong;
-      UNSCOPED_INFO("ray " << i << ": fast " << fast.triangle << " at " << fast.t << ", slow " << slow.triangle << " at " << slow.t << ", m " << ray.m);
+      UNSCOPED_INFO("ray " << i << ": fast " << fast.triangle << " at " << fast.t << ", slow " << slow.triangle << " at " << slow.t
+                           << ", m " << ray.m);
     }
     CHECK(bvh.occluded(ray, end) == (slow.triangle != kNone));
   }
@@ -41,7 +42,8 @@ Tally compare(const place::PlacedRoom& placed, const Bvh& bvh, int rays, Random&
 
 Soup soup_from(const place::PlacedMesh& mesh) {
   Soup soup;
-  for (std::size_t i = 0; i < mesh.floor.size(); ++i) soup.vertices.push_back({mesh.floor[i].w, mesh.floor[i].x, mesh.floor[i].y, mesh.z[i]});
+  for (std::size_t i = 0; i < mesh.floor.size(); ++i)
+    soup.vertices.push_back({mesh.floor[i].w, mesh.floor[i].x, mesh.floor[i].y, mesh.z[i]});
   for (const auto& t : mesh.triangles) soup.triangles.push_back({t[0], t[1], t[2]});
   soup.parts.push_back({0, 0});
   return soup;
@@ -51,15 +53,16 @@ Soup soup_from(const place::PlacedMesh& mesh) {
 
 TEST_CASE("the tree finds exactly what trying all triangles finds", "[trace]") {
   Random random;
-  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::hyperbolic, 5, 2)),
-                             furnished(regular_room(Space::hyperbolic, 8, 4)), furnished(lune(2)), furnished(lune(5)), furnished(half_lune(6)), furnished(hemisphere())}) {
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
+                             furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(regular_room(Space::hyperbolic, 8, 4)),
+                             furnished(lune(2)), furnished(lune(5)), furnished(half_lune(6)), furnished(hemisphere())}) {
     const Space space = placed.room.space;
     for (const auto& [count, size] : {std::pair{30, 1.0}, {400, 0.15}, {3000, 0.03}}) {
       const Bvh bvh(space, soup_from(soup_of(placed, count, size, random)), serial_executor());
       for (const double steep : {1.0, 0.1, 1e-4, 1e-8, 0.0}) {
         const Tally tally = compare(placed, bvh, count > 1000 ? 200 : 600, random, steep);
-        INFO("curvature " << geometry::curvature(space) << ", " << count << " triangles of " << size << ", slopes to " << steep << ", " << tally.hits << " hits, charts "
-                          << bvh.charts().size() << ", large " << bvh.large().size());
+        INFO("curvature " << geometry::curvature(space) << ", " << count << " triangles of " << size << ", slopes to " << steep << ", "
+                          << tally.hits << " hits, charts " << bvh.charts().size() << ", large " << bvh.large().size());
         CHECK(tally.wrong == 0);
       }
     }
@@ -68,7 +71,8 @@ TEST_CASE("the tree finds exactly what trying all triangles finds", "[trace]") {
 
 TEST_CASE("the tree finds what vertical and nearly vertical rays meet", "[trace]") {
   Random random;
-  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::hyperbolic, 5, 2))}) {
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
+                             furnished(regular_room(Space::hyperbolic, 5, 2))}) {
     const Space space = placed.room.space;
     const Bvh bvh(space, soup_from(soup_of(placed, 400, 0.2, random)), serial_executor());
     int hits = 0, wrong = 0;
@@ -90,7 +94,8 @@ TEST_CASE("the tree finds what vertical and nearly vertical rays meet", "[trace]
 
 TEST_CASE("many rays at once meet what each alone meets", "[trace]") {
   Random random;
-  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2), regular_room(Space::hyperbolic, 5, 2), lune(2), hemisphere()}) {
+  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2),
+                           regular_room(Space::hyperbolic, 5, 2), lune(2), hemisphere()}) {
     auto placed = furnished(room);
     placed.parts.push_back(soup_of(placed, 60, 0.8, random));
     placed.parts.push_back(soup_of(placed, 600, 0.1, random));
@@ -112,7 +117,8 @@ TEST_CASE("many rays at once meet what each alone meets", "[trace]") {
         wrong += hits[i].target != one.target || std::fabs(hits[i].t - one.t) > 1e-12 * (1 + one.t) || hits[i].wall != one.wall;
         if (triangle && hits[i].triangle == one.triangle)
           for (int j = 0; j < 3; ++j) wrong += std::fabs(hits[i].b[j] - one.b[j]) > 1e-9;
-        const BvhHit slow = try_all(room.space, scene.objects->soup(), rays[i], room.space == Space::spherical && rays[i].c > 0 ? kPi / rays[i].c : kEndless);
+        const BvhHit slow = try_all(room.space, scene.objects->soup(), rays[i],
+                                    room.space == Space::spherical && rays[i].c > 0 ? kPi / rays[i].c : kEndless);
         wrong += triangle != (slow.triangle != kNone) || (triangle && std::fabs(slow.t - one.t) > 1e-12 * (1 + slow.t));
       }
       CHECK(wrong == 0);
@@ -145,13 +151,15 @@ TEST_CASE("the tree is the same for any number of threads and small", "[trace]")
 
 TEST_CASE("few nodes are visited and few candidates fail", "[trace]") {
   Random random;
-  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::hyperbolic, 5, 2))}) {
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
+                             furnished(regular_room(Space::hyperbolic, 5, 2))}) {
     const Space space = placed.room.space;
     const Bvh bvh(space, soup_from(torus_knot(space, {}, 0.25, 0.06, 0.5, 312, 20)), serial_executor());
     Tally tally = compare(placed, bvh, 500, random);
     CHECK(tally.wrong == 0);
-    INFO("curvature " << geometry::curvature(space) << ": of 500 rays " << tally.hits << " hits, nodes " << tally.counts.nodes << ", blocks " << tally.counts.blocks << ", candidates "
-                      << tally.counts.candidates << ", bytes/triangle " << double(bvh.bytes()) / double(bvh.soup().triangles.size()));
+    INFO("curvature " << geometry::curvature(space) << ": of 500 rays " << tally.hits << " hits, nodes " << tally.counts.nodes
+                      << ", blocks " << tally.counts.blocks << ", candidates " << tally.counts.candidates << ", bytes/triangle "
+                      << double(bvh.bytes()) / double(bvh.soup().triangles.size()));
     CHECK(tally.counts.candidates < 1.3 * tally.hits + 20);
   }
 }
@@ -178,7 +186,8 @@ TEST_CASE("a scene without objects and one with a single triangle work", "[trace
 
 TEST_CASE("a ray meets the same thing alone and among others, bit by bit", "[trace]") {
   Random random{31};
-  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2), regular_room(Space::hyperbolic, 5, 2), lune(3)}) {
+  for (const auto& room :
+       {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2), regular_room(Space::hyperbolic, 5, 2), lune(3)}) {
     auto placed = furnished(room);
     placed.parts.push_back(torus_knot(room.space, room.corners.size() > 2 ? Point() : at_polar(room.space, 0.4, 1), 0.2, 0.06, 0.5, 40, 8));
     placed.parts.push_back(soup_of(placed, 40, 0.4, random));  // near to each other: ends in double
@@ -192,8 +201,10 @@ TEST_CASE("a ray meets the same thing alone and among others, bit by bit", "[tra
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const Hit alone = closest(scene, rays[i]);
       const Path path = follow(scene, rays[i]);
-      different += alone.target != together[i].target || alone.t != together[i].t || alone.triangle != together[i].triangle || alone.b[1] != together[i].b[1];
-      different += path.length != paths[i].length || path.bounces != paths[i].bounces || path.hit.t != paths[i].hit.t || path.last.at.x != paths[i].last.at.x;
+      different += alone.target != together[i].target || alone.t != together[i].t || alone.triangle != together[i].triangle ||
+                   alone.b[1] != together[i].b[1];
+      different += path.length != paths[i].length || path.bounces != paths[i].bounces || path.hit.t != paths[i].hit.t ||
+                   path.last.at.x != paths[i].last.at.x;
     }
     CHECK(different == 0);
   }
@@ -201,8 +212,8 @@ TEST_CASE("a ray meets the same thing alone and among others, bit by bit", "[tra
 
 TEST_CASE("rays of a fan meet the same things alone and together, bit by bit", "[trace]") {
   Random random{5};
-  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2), regular_room(Space::hyperbolic, 5, 2), regular_room(Space::hyperbolic, 8, 4), lune(2),
-                           lune(5), hemisphere()}) {
+  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2),
+                           regular_room(Space::hyperbolic, 5, 2), regular_room(Space::hyperbolic, 8, 4), lune(2), lune(5), hemisphere()}) {
     auto placed = furnished(room);
     placed.parts.push_back(torus_knot(room.space, room.corners.size() > 2 ? Point() : at_polar(room.space, 0.4, 1), 0.2, 0.06, 0.5, 60, 8));
     placed.parts.push_back(soup_of(placed, 2000, 0.03, random));
@@ -229,7 +240,8 @@ TEST_CASE("rays of a fan meet the same things alone and together, bit by bit", "
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit alone = closest(scene, rays[i]);
         hits += alone.target == Target::triangle;
-        different += alone.target != together[i].target || alone.t != together[i].t || alone.triangle != together[i].triangle || alone.b[1] != together[i].b[1];
+        different += alone.target != together[i].target || alone.t != together[i].t || alone.triangle != together[i].triangle ||
+                     alone.b[1] != together[i].b[1];
       }
     }
     INFO("curvature " << geometry::curvature(room.space) << ", " << room.corners.size() << " corners, " << hits << " hits");
@@ -240,7 +252,8 @@ TEST_CASE("rays of a fan meet the same things alone and together, bit by bit", "
 
 TEST_CASE("threads build the tree that one alone does, and walk it at once", "[trace][threads]") {
   auto placed = furnished(regular_room(Space::hyperbolic, 5, 2));
-  placed.parts.push_back(torus_knot(Space::hyperbolic, {}, 0.2, 0.06, 0.5, 1000, 20));  // enough triangles for tasks and for parallel binning
+  // Enough triangles for tasks and for parallel binning
+  placed.parts.push_back(torus_knot(Space::hyperbolic, {}, 0.2, 0.06, 0.5, 1000, 20));
   placed.parts.push_back(torus_knot(Space::hyperbolic, at_polar(Space::hyperbolic, 0.2, 1), 0.2, 0.06, 0.5, 1000, 20));
   placed.looks.resize(1);
   const TraceScene alone = prepare(placed), together = prepare(placed, orbc::testing::threads(4));
@@ -248,7 +261,8 @@ TEST_CASE("threads build the tree that one alone does, and walk it at once", "[t
   REQUIRE((a.nodes.size() == b.nodes.size() && a.blocks.size() == b.blocks.size()));
   int different = 0;
   for (std::size_t i = 0; i < a.nodes.size(); ++i) different += !std::equal(a.nodes[i].child, a.nodes[i].child + 8, b.nodes[i].child);
-  for (std::size_t i = 0; i < a.blocks.size(); ++i) different += !std::equal(a.blocks[i].triangle, a.blocks[i].triangle + 8, b.blocks[i].triangle);
+  for (std::size_t i = 0; i < a.blocks.size(); ++i)
+    different += !std::equal(a.blocks[i].triangle, a.blocks[i].triangle + 8, b.blocks[i].triangle);
   CHECK(different == 0);
   Random random{8};
   std::vector<Ray> rays;

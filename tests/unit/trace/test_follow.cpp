@@ -24,8 +24,8 @@ double norm_residual(Space space, const Ray& ray) {
 TEST_CASE("a ray between mirrors stays on its surface for 80 bounces", "[trace]") {
   Random random;
   for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
-                             furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(regular_room(Space::hyperbolic, 8, 4)), furnished(lune(3)),
-                             furnished(hemisphere())}) {
+                             furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(regular_room(Space::hyperbolic, 8, 4)),
+                             furnished(lune(3)), furnished(hemisphere())}) {
     const TraceScene scene = prepare(placed);
     for (int i = 0; i < 300; ++i) {
       const Ray ray = random_ray(placed, random, 0.01);
@@ -42,8 +42,9 @@ TEST_CASE("a ray between mirrors stays on its surface for 80 bounces", "[trace]"
 TEST_CASE("the word of a path and its end are those of the product of reflections", "[trace]") {
   // Unfolded, the path is one geodesic: the end point is word · end = X(L) of the ray as if there were no walls.
   Random random;
-  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::euclidean, 3, 3)),
-                             furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(lune(4)), furnished(hemisphere()), furnished(half_lune(5))}) {
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
+                             furnished(regular_room(Space::euclidean, 3, 3)), furnished(regular_room(Space::hyperbolic, 5, 2)),
+                             furnished(lune(4)), furnished(hemisphere()), furnished(half_lune(5))}) {
     const Space space = placed.room.space;
     const TraceScene scene = prepare(placed);
     for (int i = 0; i < 400; ++i) {
@@ -120,7 +121,8 @@ TEST_CASE("a ray into a corner comes back as the limit of its neighbours", "[tra
 }
 
 TEST_CASE("a ray that starts on a wall, rounded to either side of it, and points out of the room meets that wall at once", "[trace]") {
-  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 5, 2), regular_room(Space::hyperbolic, 5, 2)}) {
+  for (const auto& room :
+       {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 5, 2), regular_room(Space::hyperbolic, 5, 2)}) {
     const Prism prism{room.space, 1, room.walls};
     Random random{4};
     int behind = 0;

@@ -15,7 +15,8 @@ place::PlacedRoom holed(room::Room room, double size, Random& random) {
   place::PlacedRoom placed = furnished(std::move(room));
   placed.parts.push_back(soup_of(placed, 60, size, random));
   place::PlacedMesh& part = placed.parts[0];
-  for (std::size_t i = 0; i < part.floor.size(); ++i) part.uv.push_back({static_cast<float>(random.unit()), static_cast<float>(random.unit())});
+  for (std::size_t i = 0; i < part.floor.size(); ++i)
+    part.uv.push_back({static_cast<float>(random.unit()), static_cast<float>(random.unit())});
   mesh::Image image{8, 8, {}};
   for (int i = 0; i < 64; ++i) image.rgba.insert(image.rgba.end(), {9, 9, 9, static_cast<std::uint8_t>(random.bits() & 255)});
   placed.textures.push_back(image);
@@ -46,14 +47,17 @@ Hit try_all_points(const place::PlacedRoom& placed, const Ray& ray, double most)
 }
 
 bool same(const Hit& a, const Hit& b) {
-  return a.target == b.target && a.t == b.t && a.part == b.part && a.triangle == b.triangle && a.b[0] == b.b[0] && a.b[1] == b.b[1] && a.b[2] == b.b[2] && a.wall == b.wall;
+  return a.target == b.target && a.t == b.t && a.part == b.part && a.triangle == b.triangle && a.b[0] == b.b[0] && a.b[1] == b.b[1] &&
+         a.b[2] == b.b[2] && a.wall == b.wall;
 }
 
 }  // namespace
 
 TEST_CASE("rays go through holes, and meet what trying every triangle behind them finds", "[trace]") {
   Random random;
-  for (const auto& [room, size] : {std::pair{regular_room(Space::spherical, 3, 2), 0.5}, {regular_room(Space::euclidean, 4, 2), 0.6}, {regular_room(Space::hyperbolic, 5, 2), 0.7}}) {
+  for (const auto& [room, size] : {std::pair{regular_room(Space::spherical, 3, 2), 0.5},
+                                   {regular_room(Space::euclidean, 4, 2), 0.6},
+                                   {regular_room(Space::hyperbolic, 5, 2), 0.7}}) {
     const place::PlacedRoom placed = holed(room, size, random);
     const TraceScene scene = prepare(placed);
     REQUIRE(scene.masked);
@@ -66,7 +70,8 @@ TEST_CASE("rays go through holes, and meet what trying every triangle behind the
       REQUIRE(same(hit, together[i]));
       const Hit wanted = try_all_points(placed, rays[i], hit.target == Target::triangle ? kEndless : hit.t);
       REQUIRE((hit.target == Target::triangle) == (wanted.target == Target::triangle));
-      if (wanted.target == Target::triangle) REQUIRE((hit.triangle == wanted.triangle && std::fabs(hit.t - wanted.t) < 1e-12));   // the tree refines in its own way
+      // The tree refines in its own way
+      if (wanted.target == Target::triangle) REQUIRE((hit.triangle == wanted.triangle && std::fabs(hit.t - wanted.t) < 1e-12));
       REQUIRE(same(triangle, hit.target == Target::triangle ? hit : triangle));
       const double reach = random.between(0.1, 1.5);
       CHECK(occluded(scene, rays[i], reach) == (triangle.target == Target::triangle && triangle.t < reach));

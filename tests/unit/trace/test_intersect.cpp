@@ -13,7 +13,8 @@ Vertex vertex(const Point& p, double z) { return {p.w, p.x, p.y, z}; }
 /// Barycentric weights of the triangle over a floor point by Cramer's rule: an independent way to its height.
 bool over(const Vertex v[3], const Point& x, long double& height) {
   const auto det = [](const Vertex& a, const Vertex& b, long double w, long double xx, long double y) {
-    return w * ((long double)a.x * b.y - (long double)a.y * b.x) + xx * ((long double)a.y * b.w - (long double)a.w * b.y) + y * ((long double)a.w * b.x - (long double)a.x * b.w);
+    return w * ((long double)a.x * b.y - (long double)a.y * b.x) + xx * ((long double)a.y * b.w - (long double)a.w * b.y) +
+           y * ((long double)a.w * b.x - (long double)a.x * b.w);
   };
   long double b[3];
   for (int i = 0; i < 3; ++i) b[i] = det(v[(i + 1) % 3], v[(i + 2) % 3], x.w, x.x, x.y);
@@ -54,13 +55,15 @@ double march(Space space, const Ray& ray, const Vertex v[3], double length, int 
 
 TEST_CASE("a ray meets a triangle where walking along it finds it", "[trace]") {
   Random random;
-  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)), furnished(regular_room(Space::hyperbolic, 5, 2)),
-                             furnished(regular_room(Space::hyperbolic, 8, 4)), furnished(hemisphere())}) {
+  for (const auto& placed :
+       {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
+        furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(regular_room(Space::hyperbolic, 8, 4)), furnished(hemisphere())}) {
     const Space space = placed.room.space;
     const auto mesh = soup_of(placed, 300, 0.7, random);
     int hits = 0;
     for (const auto& t : mesh.triangles) {
-      const Vertex v[3] = {vertex(mesh.floor[t[0]], mesh.z[t[0]]), vertex(mesh.floor[t[1]], mesh.z[t[1]]), vertex(mesh.floor[t[2]], mesh.z[t[2]])};
+      const Vertex v[3] = {vertex(mesh.floor[t[0]], mesh.z[t[0]]), vertex(mesh.floor[t[1]], mesh.z[t[1]]),
+                           vertex(mesh.floor[t[2]], mesh.z[t[2]])};
       for (int i = 0; i < 6; ++i) {
         Ray ray = random_ray(placed, random, i < 2 ? 1 : 0.2);
         if (i >= 4) {  // aimed at a point of the triangle
@@ -80,7 +83,8 @@ TEST_CASE("a ray meets a triangle where walking along it finds it", "[trace]") {
         // The point of the triangle and the point of the ray are the same.
         const Ambient sum = hit.b[0] * mesh.floor[t[0]] + hit.b[1] * mesh.floor[t[1]] + hit.b[2] * mesh.floor[t[2]];
         const auto at = position_at(space, ray, hit.t);
-        CHECK(geometry::distance(space, geometry::normalised_point(space, sum), at.floor) < 1e-12 * (1 + hit.t) * (space == Space::hyperbolic ? 50 : 1));
+        CHECK(geometry::distance(space, geometry::normalised_point(space, sum), at.floor) <
+              1e-12 * (1 + hit.t) * (space == Space::hyperbolic ? 50 : 1));
         CHECK(std::fabs(hit.b[0] * v[0].z + hit.b[1] * v[1].z + hit.b[2] * v[2].z - at.z) < 1e-12 * (1 + hit.t));
         CHECK(std::fabs(hit.b[0] + hit.b[1] + hit.b[2] - 1) < 1e-12);
         for (double b : hit.b) CHECK(b > -1e-12);
@@ -147,7 +151,8 @@ TEST_CASE("on S² a ray meets a triangle at its antipode, and after many turns",
 
 TEST_CASE("vertical rays, vertical triangles and rays that start on a triangle", "[trace]") {
   for (const Space space : {Space::spherical, Space::euclidean, Space::hyperbolic}) {
-    const Vertex flat[3] = {vertex(at_polar(space, 0.5, 0), 0.5), vertex(at_polar(space, 0.5, 2), 0.6), vertex(at_polar(space, 0.5, 4), 0.7)};
+    const Vertex flat[3] = {vertex(at_polar(space, 0.5, 0), 0.5), vertex(at_polar(space, 0.5, 2), 0.6),
+                            vertex(at_polar(space, 0.5, 4), 0.7)};
     const Ray up = ray_from(space, {at_polar(space, 0.1, 1), 0.1}, {{0, 0, 0}, 1});
     const TriangleHit above = intersect(plane_of(space, up), flat[0], flat[1], flat[2]);
     REQUIRE(above.found);
@@ -156,9 +161,11 @@ TEST_CASE("vertical rays, vertical triangles and rays that start on a triangle",
     CHECK(above.t == Approx(static_cast<double>(height) - 0.1));
     const Ray down = ray_from(space, {at_polar(space, 0.1, 1), 0.9}, {{0, 0, 0}, -1});
     CHECK(intersect(plane_of(space, down), flat[0], flat[1], flat[2]).t == Approx(0.9 - static_cast<double>(height)));
-    CHECK_FALSE(intersect(plane_of(space, ray_from(space, {at_polar(space, 0.1, 1), 0.9}, {{0, 0, 0}, 1})), flat[0], flat[1], flat[2]).found);
+    CHECK_FALSE(
+        intersect(plane_of(space, ray_from(space, {at_polar(space, 0.1, 1), 0.9}, {{0, 0, 0}, 1})), flat[0], flat[1], flat[2]).found);
 
-    const Vertex wall[3] = {vertex(at_polar(space, 0.4, 0.5), 0.2), vertex(at_polar(space, 0.4, -0.5), 0.2), vertex(at_polar(space, 0.4, -0.5), 0.8)};
+    const Vertex wall[3] = {vertex(at_polar(space, 0.4, 0.5), 0.2), vertex(at_polar(space, 0.4, -0.5), 0.2),
+                            vertex(at_polar(space, 0.4, -0.5), 0.8)};
     const Ray level = ray_from(space, {{}, 0.4}, {{0, 1, -0.2}, 0});
     CHECK(intersect(plane_of(space, level), wall[0], wall[1], wall[2]).found);
     const Ray over_it = ray_from(space, {{}, 0.81}, {{0, 1, -0.2}, 0});

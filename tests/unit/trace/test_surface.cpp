@@ -19,7 +19,8 @@ TEST_CASE("the checker of a floor follows the axial grid", "[trace]") {
   look.material.cell = 0.25;
   placed.looks.push_back(look);
   const TraceScene scene = prepare(placed);
-  for (const auto& [u, v, second] : {std::tuple{0.1, 0.1, false}, {0.3, 0.1, true}, {-0.1, 0.1, true}, {-0.1, -0.1, false}, {0.3, 0.4, false}}) {
+  for (const auto& [u, v, second] :
+       {std::tuple{0.1, 0.1, false}, {0.3, 0.1, true}, {-0.1, 0.1, true}, {-0.1, -0.1, false}, {0.3, 0.4, false}}) {
     const Ray ray = ray_from(Space::hyperbolic, {geometry::point_from_axial(Space::hyperbolic, {u, v}), 0.5}, {{0, 0, 0}, -1});
     const SurfacePoint point = surface_at(scene, ray, closest(scene, ray));
     CHECK(point.kind == place::PartKind::floor);

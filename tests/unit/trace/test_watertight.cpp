@@ -12,8 +12,8 @@ TEST_CASE("no ray slips out of a closed surface at its vertices and edges", "[tr
 
 TEST_CASE("paths agree with numerical integration in the disk chart", "[trace]") {
   Random random;
-  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2), 30), furnished(regular_room(Space::euclidean, 4, 2), 30), furnished(regular_room(Space::hyperbolic, 5, 2), 30),
-                             furnished(regular_room(Space::hyperbolic, 8, 4), 30)}) {
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2), 30), furnished(regular_room(Space::euclidean, 4, 2), 30),
+                             furnished(regular_room(Space::hyperbolic, 5, 2), 30), furnished(regular_room(Space::hyperbolic, 8, 4), 30)}) {
     const TraceScene scene = prepare(placed);
     for (int i = 0; i < 2; ++i) {
       const Point from = random_point(placed.room, random, 0.05);
