@@ -323,7 +323,8 @@ void light_vertices(Part& part, const Executor& executor, const Progress& progre
     const std::vector<std::uint32_t> near = images_near(part.field, centre, radius);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       if (!lit[i]) continue;
-      const LightPoint point = light_point(part.room, part.mesh, part.normals.vertices[i]);
+      LightPoint point = light_point(part.room, part.mesh, part.normals.vertices[i]);
+      if (part.stand_in) point = on_surface(part.field, point, kOnVertex);
       part.at_vertex[i] = irradiance(part.field, point, near);
       part.blind_vertex[i] = part.at_vertex[i] == Color{} && covered(part.field, point);
     }

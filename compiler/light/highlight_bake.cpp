@@ -124,7 +124,9 @@ class PartShine {
     const int number = mesh_.look[t];
     if (known_[v] == number && !own) return at_vertex_[v];
     const Color albedo = own ? albedo_at(block, far_u, far_v) : Color{1, 1, 1};
-    at_vertex_[v] = shine(light_point(job_.room, mesh_, normals_.vertices[v]), albedo, look.material);
+    LightPoint point = light_point(job_.room, mesh_, normals_.vertices[v]);
+    if (stand_in() && !whole_) point = on_surface(job_.field, point, kOnVertex);
+    at_vertex_[v] = shine(point, albedo, look.material);
     known_[v] = number;
     return at_vertex_[v];
   }
@@ -135,8 +137,12 @@ class PartShine {
     const double u = static_cast<double>(i) / (grid.w - 1), v = static_cast<double>(j) / (grid.h - 1);
     const InTriangle at = in_triangle(block, u, v);
     const Color albedo = look.material.kind == scene::MaterialKind::metal ? albedo_at(block, u, v) : Color{1, 1, 1};
-    return shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), albedo, look.material);
+    LightPoint point = light_point(job_.room, mesh_, normals_, at.triangle, at.b);
+    if (stand_in() && !whole_) point = on_surface(job_.field, point, std::max(block.length_u, block.length_v) / 2);
+    return shine(point, albedo, look.material);
   }
+  /// A coarser level: what shines is the part itself (seen_in puts its points there by itself).
+  [[nodiscard]] bool stand_in() const { return job_.field.lit && job_.part >= job_.field.normals.size(); }
 
   static bool valid(const Block& block, const Grid& grid, int i, int j) { return on_block(block, i, j, grid.w, grid.h); }
 

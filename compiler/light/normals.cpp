@@ -98,6 +98,17 @@ PartNormals of_object(Space space, const PlacedMesh& mesh, double cos_crease) {
   return result;
 }
 
+// Frames and beams end on walls, and rays that start a rounding beyond a mirror would be turned back by it at once.
+geometry::Position inside(const place::PlacedRoom& room, geometry::Position at) {
+  const double k = geometry::curvature(room.room.space);
+  for (const room::Wall& wall : room.room.walls)
+    if (const double left = geometry::value_at(wall.line, at.floor); left < trace::kLeave)
+      at.floor = geometry::normalised_point(
+          room.room.space, geometry::Ambient(at.floor) + (trace::kLeave - left) * Ambient{k * wall.line.w, wall.line.x, wall.line.y});
+  at.z = std::clamp(at.z, trace::kLeave, room.height - trace::kLeave);
+  return at;
+}
+
 }  // namespace
 
 PartNormals part_normals(const place::PlacedRoom& room, const PlacedMesh& part, double crease) {
@@ -117,7 +128,7 @@ LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, co
   point.normal = point.flat = vertex.normal;
   point.wall = part.kind == PartKind::wall ? part.wall : -1;
   point.on_triangle = part.kind == PartKind::object || part.kind == PartKind::frame;
-  (void)room;
+  if (point.on_triangle) point.origin = inside(room, point.origin);
   return point;
 }
 
@@ -156,7 +167,7 @@ LightPoint light_point(const place::PlacedRoom& room, const PlacedMesh& part, co
     const double below = std::min(0.0, dot(from, n[k]));
     lift = lift - (b[k] * below) * n[k];
   }
-  point.origin = exponential(space, point.at, frame, lift);
+  point.origin = inside(room, exponential(space, point.at, frame, lift));
   return point;
 }
 

@@ -48,8 +48,9 @@ class Net {
     for (std::size_t p = 0; p < s_.room.parts.size(); ++p) {
       const PartNormals& normals = *s_.normals[p];
       const std::size_t vertices = nodes_.size();
-      add_vertices(s_.room.parts[p], normals);
-      for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices, p >= s_.field.normals.size());
+      const bool stand_in = p >= s_.field.normals.size();
+      add_vertices(s_.room.parts[p], normals, stand_in);
+      for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices, stand_in);
     }
     const std::size_t directions = nodes_.size() * static_cast<std::size_t>(options_.samples);
     linked_ = static_cast<int>(std::clamp((directions + kMostLinks - 1) / kMostLinks, std::size_t{kLinked},
@@ -126,7 +127,7 @@ class Net {
 
   // Vertices of objects are asked a little inside of the smooth surface that they belong to: at a foot on the floor all that lies below is
   // one point, and just there shadows begin. In the middle of a surface that is the vertex itself.
-  void add_vertices(const place::PlacedMesh& part, const PartNormals& normals) {
+  void add_vertices(const place::PlacedMesh& part, const PartNormals& normals, bool stand_in) {
     const geometry::Space space = s_.room.room.space;
     const bool flat = part.kind != place::PartKind::object && part.kind != place::PartKind::frame;
     struct Around {
@@ -144,6 +145,7 @@ class Net {
         }
     for (std::size_t v = 0; v < normals.vertices.size(); ++v) {
       LightPoint point = light_point(s_.room, part, normals.vertices[v]);
+      if (stand_in) point = on_surface(s_.field, point, kOnVertex);
       if (around[v].count > 0) {
         const Frame frame = frame_at(space, point.at.floor);
         const double share = 1.0 / around[v].count;

@@ -136,14 +136,18 @@ double unhindered(const LightField& field, const LampImage& image, const HungLam
 
 LightPoint on_surface(const LightField& field, const LightPoint& point, double reach) {
   const Space space = field.scene.prism.space;
+  const Frame frame = frame_at(space, point.at.floor);
+  const geometry::Vector3 flat = local(space, frame, point.flat);
   LightPoint nearest = point;
   for (const double side : {1.0, -1.0}) {
-    const trace::Ray ray = trace::ray_from(space, point.at, side * point.flat);
-    const trace::Hit hit = trace::closest_triangle(field.scene, ray, reach);
-    if (hit.target != trace::Target::triangle || hit.t >= reach) continue;
+    // From a little behind: the surface may be just here.
+    const Position start = exponential(space, point.at, frame, (-side * trace::kLeave) * flat);
+    const trace::Ray ray = trace::ray_from(space, start, side * point.flat);
+    const trace::Hit hit = trace::closest_triangle(field.scene, ray, reach + trace::kLeave);
+    if (hit.target != trace::Target::triangle || std::fabs(hit.t - trace::kLeave) >= reach) continue;
     const LightPoint there = light_point(field, *field.casting, trace::surface_at(field.scene, ray, hit), hit);
-    if (std::fabs(trace::inner(space, there.normal, point.normal)) < 0.7) continue;  // the other side of an edge
-    reach = hit.t;
+    if (trace::inner(space, there.normal, point.normal) < 0.7) continue;  // beyond an edge, or the far side of something thin
+    reach = std::fabs(hit.t - trace::kLeave);
     nearest = there;
   }
   return nearest;

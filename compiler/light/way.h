@@ -21,8 +21,11 @@ struct Way {
 [[nodiscard]] double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample,
                                 const LightPoint& point, const Way& way);
 
-/// A point of a stand-in that lies near a surface of the room, put onto that surface: coarse stand-ins cut corners and would lie in its
-/// shadow. In: how far off it may be. Left as it is where nothing is so near.
+/// How far the vertices of a stand-in lie off the surface that it stands for: they are vertices of it.
+inline constexpr double kOnVertex = 1e-6;
+
+/// A point of a stand-in that lies near a surface of the room, put onto that surface, with its normal: coarse stand-ins cut corners and
+/// would lie in its shadow, and turn elsewhere. In: how far off it may be. Left as it is where nothing is so near.
 [[nodiscard]] LightPoint on_surface(const LightField& field, const LightPoint& point, double reach);
 
 /// Whether a point lies under or in a closed thing, which nobody looks into: all ways from it end on the inside of triangles.

@@ -127,7 +127,7 @@ TEST_CASE("a budget of triangles is met, with less error the more there may be",
   if (expected) opened.scene.cover.max_bounces = 4;   // panels all round
   const bend::BendOptions options;
   double last = 1e9;
-  for (const std::uint64_t budget : {2'000, 6'000, 20'000, 60'000, 1'000'000}) {
+  for (const std::uint64_t budget : {2'000, 20'000, 1'000'000}) {
     const auto fitted = driver::fit_to_budget(opened, levels, copies, budget, options, expected, serial_executor());
     REQUIRE(fitted.has_value());
     CHECK(fitted->triangles <= budget);
