@@ -1,7 +1,7 @@
 // Edges once each, by bucket of the smaller end; the bounds of a part that let most copies pass without looking at a single edge.
 //
-// The bound: a geodesic parametrised by arc length, seen in the log chart (polar coordinates r, φ; sinκ²(r)φ' = const), has the
-// acceleration
+// The bound: a geodesic parametrised by arc length, seen in the log chart (polar coordinates r, φ; sinκ²(r)φ' = const), has
+// the acceleration
 //   radial (sinκ cosκ − r)/sinκ² · sin²ψ,   transverse (sinκ − r cosκ)/sinκ² · sin 2ψ      (ψ = angle to the radius)
 // so a chord of length ℓ is off by at most Kℓ²/8, and a triangle by Kℓ²/6. The height is affine in b, not in the arc: b differs from s/ℓ by
 // ½(tanκ(ℓu/2)/tanκ(ℓ/2) − u), at most ℓ²/50 for ℓ ≤ 1. In the conformal chart |C''| ≤ 1.5|z|(1 + κ|z|²).

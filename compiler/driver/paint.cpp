@@ -43,7 +43,7 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
   auto baked = light::bake(room, field, bake, executor, progress);
   if (!baked) return baked.error();
   if (options.highlights && options.lit && light::needs_highlights(*opened.room, field)) {
-    light::HighlightOptions shine;
+    light::HighlightOptions shine = light::highlight_options(opened.scene.bake);
     shine.max_side = options.max_side;
     if (light::has_mirror_or_glass(*opened.room)) shine.seen_in = see_in(opened, &*baked, executor);
     painted.highlights = light::bake_highlights(room, field, copies, drawn, opened.eye, shine, *baked, executor, progress);

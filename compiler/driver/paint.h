@@ -24,8 +24,7 @@ struct Painted {
 
 /// Plain colours, or, in a scene with lamps, the light of the room, and highlights for the eye.
 /// In:          the room to be painted: the opened one, perhaps with further parts (levels of detail), which cast no shadows; its copies,
-/// and
-///              which parts they are drawn from.
+///              and which parts they are drawn from.
 /// Diagnostics: those of light.
 [[nodiscard]] Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
                                     const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options,

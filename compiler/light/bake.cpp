@@ -135,9 +135,6 @@ class BlockBaker {
   }
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * grid_.w + i; }
   bool valid(int i, int j) const { return on_block(block_, i, j, grid_.w, grid_.h); }
-  InTriangle place(int i, int j) const {
-    return in_triangle(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1));
-  }
 
   void ask(int i, int j) {
     Color& light = grid_.light[index(i, j)];
@@ -152,7 +149,7 @@ class BlockBaker {
       return;
     }
     ++grid_.asked;
-    const InTriangle at = place(i, j);
+    const InTriangle at = within_block(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1), kWithin);
     if (!near_known_) near_ = images_near_block(), near_known_ = true;
     LightPoint point = light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b);
     if (part_.stand_in) point = on_surface(part_.field, point, std::max(block_.length_u, block_.length_v) / 2);
@@ -301,10 +298,14 @@ class BlockBaker {
 void light_vertices(Part& part, const Executor& executor, const Progress& progress) {
   constexpr std::size_t kChunk = 32;
   // What glows is not lit.
-  std::vector<std::uint8_t> lit(part.normals.vertices.size(), 0);
+  struct Corner {
+    std::size_t triangle = 0, k = 3;
+  };
+  std::vector<Corner> lit(part.normals.vertices.size());
   for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t)
     if (part.room.looks[part.mesh.look[t]].material.kind != scene::MaterialKind::emissive)
-      for (const std::uint32_t corner : part.normals.corners[t]) lit[corner] = 1;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (Corner& corner = lit[part.normals.corners[t][k]]; corner.k > 2) corner = {t, k};
   part.at_vertex.resize(part.normals.vertices.size());
   part.blind_vertex.assign(part.normals.vertices.size(), 0);
   std::atomic<std::uint64_t> done{0};
@@ -322,8 +323,8 @@ void light_vertices(Part& part, const Executor& executor, const Progress& progre
     }
     const std::vector<std::uint32_t> near = images_near(part.field, centre, radius);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      if (!lit[i]) continue;
-      LightPoint point = light_point(part.room, part.mesh, part.normals.vertices[i]);
+      if (lit[i].k > 2) continue;
+      LightPoint point = light_point(part.room, part.mesh, part.normals, lit[i].triangle, near_corner(lit[i].k));
       if (part.stand_in) point = on_surface(part.field, point, kOnVertex);
       part.at_vertex[i] = irradiance(part.field, point, near);
       part.blind_vertex[i] = part.at_vertex[i] == Color{} && covered(part.field, point);

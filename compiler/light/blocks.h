@@ -28,6 +28,11 @@ struct InTriangle {
   std::array<double, 3> b{};
 };
 [[nodiscard]] InTriangle in_triangle(const Block& block, double u, double v);
+/// The same, moved by this share of the way to the block's middle.
+[[nodiscard]] inline InTriangle within_block(const Block& block, double u, double v, double share) {
+  const double middle = block.second < 0 ? 1.0 / 3 : 0.5;
+  return in_triangle(block, u + share * (middle - u), v + share * (middle - v));
+}
 
 /// Whether (u, v) of the square lies in a hole of its triangle (Look::cutoff); beyond the long side of a single triangle as the point of
 /// that side nearest to it.

@@ -29,7 +29,6 @@ constexpr int kMaxLevel = 10;        // of a block: 1025 texels a side
 constexpr double kContrast = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
 constexpr double kSmallestShiny = 3;    // pixels: highlights of smaller things are left out
 constexpr double kSmallestGlass = 0.5;  // but glass and mirrors are nothing without what is seen in them
-constexpr int kRaysPerTexel = 2;     // a side, where glass or a mirror shows what is finer than a texel
 constexpr std::size_t kBatch = 16;   // copies between two looks at the bound
 
 bool shines(const scene::Material& material) {
@@ -124,7 +123,7 @@ class PartShine {
     const int number = mesh_.look[t];
     if (known_[v] == number && !own) return at_vertex_[v];
     const Color albedo = own ? albedo_at(block, far_u, far_v) : Color{1, 1, 1};
-    LightPoint point = light_point(job_.room, mesh_, normals_.vertices[v]);
+    LightPoint point = light_point(job_.room, mesh_, normals_, t, near_corner(static_cast<std::size_t>(k)));
     if (stand_in() && !whole_) point = on_surface(job_.field, point, kOnVertex);
     at_vertex_[v] = shine(point, albedo, look.material);
     known_[v] = number;
@@ -135,7 +134,7 @@ class PartShine {
     const bool end_u = i == 0 || i == grid.w - 1, end_v = j == 0 || j == grid.h - 1;
     if (end_u && end_v) return corner(block, look, i > 0, j > 0);
     const double u = static_cast<double>(i) / (grid.w - 1), v = static_cast<double>(j) / (grid.h - 1);
-    const InTriangle at = in_triangle(block, u, v);
+    const InTriangle at = within_block(block, u, v, kWithin);
     const Color albedo = look.material.kind == scene::MaterialKind::metal ? albedo_at(block, u, v) : Color{1, 1, 1};
     LightPoint point = light_point(job_.room, mesh_, normals_, at.triangle, at.b);
     if (stand_in() && !whole_) point = on_surface(job_.field, point, std::max(block.length_u, block.length_v) / 2);
@@ -220,6 +219,8 @@ class PartShine {
   // What is refracted or mirrored is often finer than texels. Where neighbours differ a texel shows the mean over its own size, as a pixel
   // does.
   void soften(const Block& block, const place::Look& look, Grid& grid) {
+    const int side = job_.options.rays_per_texel;
+    if (side < 2) return;
     const auto beside = [&](int i, int j, const Color& here) {
       return i >= 0 && j >= 0 && i < grid.w && j < grid.h && valid(block, grid, i, j) &&
              difference(grid.light[grid.index(i, j)], here) > kContrast;
@@ -231,9 +232,9 @@ class PartShine {
         if (!valid(block, grid, i, j)) continue;
         if (!beside(i - 1, j, here) && !beside(i + 1, j, here) && !beside(i, j - 1, here) && !beside(i, j + 1, here)) continue;
         Color sum;
-        for (int k = 0; k < kRaysPerTexel * kRaysPerTexel; ++k) {
-          double u = std::clamp((i - 0.5 + (k % kRaysPerTexel + 0.5) / kRaysPerTexel) / (grid.w - 1), 0.0, 1.0);
-          double v = std::clamp((j - 0.5 + (k / kRaysPerTexel + 0.5) / kRaysPerTexel) / (grid.h - 1), 0.0, 1.0);
+        for (int k = 0; k < side * side; ++k) {
+          double u = std::clamp((i - 0.5 + (k % side + 0.5) / side) / (grid.w - 1), 0.0, 1.0);
+          double v = std::clamp((j - 0.5 + (k / side + 0.5) / side) / (grid.h - 1), 0.0, 1.0);
           if (block.second < 0 && u + v > 1) {  // a single triangle: back over its long side
             const double out = (u + v - 1) / 2;
             u = std::max(0.0, u - out), v = std::max(0.0, v - out);
@@ -241,7 +242,7 @@ class PartShine {
           const InTriangle at = in_triangle(block, u, v);
           sum = sum + shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), {1, 1, 1}, look.material);
         }
-        soft[grid.index(i, j)] = (1.0 / (kRaysPerTexel * kRaysPerTexel)) * sum;
+        soft[grid.index(i, j)] = (1.0 / (side * side)) * sum;
       }
     grid.light = std::move(soft);
   }
@@ -421,6 +422,13 @@ OwnUv own_uv(const Shining& shining, const Baked& baked) {
 }
 
 }  // namespace
+
+HighlightOptions highlight_options(const scene::BakeSpec& spec) {
+  HighlightOptions options;
+  if (spec.quality == scene::BakeQuality::draft) options.fine_px = 1.6, options.rays_per_texel = 1, options.tolerance = 3;
+  if (spec.quality == scene::BakeQuality::fine) options.fine_px = 0.4, options.tolerance = 0.5;
+  return options;
+}
 
 bool needs_highlights(const place::PlacedRoom& room, const LightField& field) {
   if (has_mirror_or_glass(room)) return true;

@@ -20,10 +20,14 @@ struct HighlightOptions {
   double tolerance = 1;                   ///< in steps of 1/255 of the picture: smaller highlights are left out
   double probe_px = 4;                    ///< pixels between points that are always asked
   double fine_px = 0.8;                   ///< and where highlights change
+  int rays_per_texel = 2;                 ///< a side, where glass or a mirror shows what is finer than a texel
   double coarser_beside = 4;              ///< times that, for what lies beside the picture: seen only when the camera is turned
   int max_side = 16384;                   ///< pixels of the atlas
   std::uint64_t max_texels = 40'000'000;  ///< for highlights; the nearest copies come first
 };
+
+/// What the author of a scene, or the command line, says of them.
+[[nodiscard]] HighlightOptions highlight_options(const scene::BakeSpec& spec);
 
 /// Which parts of the baked room copies are drawn from. No models: every copy from all parts that the field knows.
 struct DrawnParts {

@@ -21,8 +21,8 @@ struct Way {
 [[nodiscard]] double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample,
                                 const LightPoint& point, const Way& way);
 
-/// How far the vertices of a stand-in lie off the surface that it stands for: they are vertices of it.
-inline constexpr double kOnVertex = 1e-6;
+/// How far a stand-in lies off its surface close to vertices, at most: they are vertices of the surface.
+inline constexpr double kOnVertex = 1e-4;
 
 /// A point of a stand-in that lies near a surface of the room, put onto that surface, with its normal: coarse stand-ins cut corners and
 /// would lie in its shadow, and turn elsewhere. In: how far off it may be. Left as it is where nothing is so near.

@@ -20,8 +20,7 @@ struct Decimated {
 
 /// Simplifies a mesh by collapsing edges, those that change the surface least first (quadric errors, OpenMesh).
 /// Makes:        a mesh of a subset of the vertices; borders, uv seams and borders between looks stay where they are, up to the error; the
-/// two sides
-///               of a seam keep together, so no crack opens; no triangle turns over. Same input, same bytes.
+///               two sides of a seam keep together, so no crack opens; no triangle turns over. Same input, same bytes.
 /// Error:        `error` is measured from the given vertices to the new surface; the other direction is not, but new vertices are old ones.
 /// Not promised: that `triangles` is reached: a mesh of many small separate pieces, or of seams everywhere, has a floor.
 [[nodiscard]] Decimated decimate(const Mesh& mesh, const DecimateOptions& options);

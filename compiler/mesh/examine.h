@@ -34,8 +34,7 @@ struct ExamineOptions {
 
 /// Looks a mesh over.
 /// Exact or error: edges, closedness, orientation of edges exact; crossings by floating-point signs of segment against triangle, triangles
-/// that
-///                 share a position are not compared, touching does not count: a report, not a proof.
+///                 that share a position are not compared, touching does not count: a report, not a proof.
 [[nodiscard]] Examination examine(const Mesh& mesh, const ExamineOptions& options = {});
 
 /// What an author should know of it: mesh.inside-out, mesh.not-manifold, mesh.turned-triangles, mesh.degenerate-triangles,

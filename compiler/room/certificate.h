@@ -5,8 +5,7 @@ namespace orbc::room {
 
 /// Measures a realised room from its stored doubles alone, not from how it was made.
 /// Exact:  `convex` (signs of 3×3 determinants of the stored vectors, no tolerance). The residuals are upper bounds by interval arithmetic
-/// of
-///         168 bits around the stored doubles, which count as exact; they contain the rounding of the stored room, nothing else.
+///         of 168 bits around the stored doubles, which count as exact; they contain the rounding of the stored room, nothing else.
 /// Makes:  infinite residuals where the stored doubles define no angle or no distance any more.
 [[nodiscard]] Certificate certify(const Room& room);
 

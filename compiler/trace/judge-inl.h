@@ -150,10 +150,9 @@ HWY_INLINE std::uint32_t bits_of(M mask) {
 
 /// Which of eight triangles the ray may meet between `start` and `end`.
 /// Conservative: with f = c·z − m·atanκ(t) − level at the two crossings, how far the triangle is above the ray there, a triangle is dropped
-/// only when f has surely the same sign at both and either does not turn in between or is farther from 0 than the curve in between can
-/// bend, or both crossings surely lie beside the ray's ends. It is sure when the signs surely differ and f does not turn: f′ = 0 anywhere
-/// between needs
-/// |f₁ − f₂| ≤ max|f″|/2 = 4 bends.
+/// only when f has surely the same sign at both and either does not turn in between or is farther from 0 than the curve in
+/// between can bend, or both crossings surely lie beside the ray's ends. It is sure when the signs surely differ and f does
+/// not turn: f′ = 0 anywhere between needs |f₁ − f₂| ≤ max|f″|/2 = 4 bends.
 template <Space kSpace>
 HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& ray, Verdict& verdict) {
   const D d;
