@@ -81,10 +81,12 @@ int verify(const VerifyArguments& a, const Common& common) {
   const TemporaryFolder folder;
   std::vector<Verdict> verdicts;
   mesh::Image drawn;
+  CompileArguments finest = a.compile;  // two roads are compared, not how coarsely one of them may be walked
+  if (finest.scene.quality.empty()) finest.scene.quality = "fine";
   for (const char* engine : {"blender", "povray"}) {  // the difference picture shows POV-Ray's, which is always drawn
     if (engine == std::string("blender") && !a.blender) continue;
     RenderArguments render_arguments;
-    render_arguments.compile = a.compile;
+    render_arguments.compile = finest;
     render_arguments.engine = engine;
     render_arguments.samples = a.samples;
     render_arguments.compile.output = (folder.path() / (std::string(engine) + ".png")).string();
@@ -108,7 +110,7 @@ int verify(const VerifyArguments& a, const Common& common) {
   for (const Verdict& v : verdicts) all = all && v.passed;
   if (!all && !opened->scene.lamps.empty() && !common.quiet)
     fmt::print(stderr,
-               "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.97 "
+               "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.99 "
                "compares them fairly\n");
   return all ? kDone : kSceneWrong;
 }
