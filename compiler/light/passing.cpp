@@ -145,7 +145,7 @@ class Net {
         }
     for (std::size_t v = 0; v < normals.vertices.size(); ++v) {
       LightPoint point = light_point(s_.room, part, normals.vertices[v]);
-      if (stand_in) point = on_surface(s_.field, point, kOnVertex);
+      double reach = kOnVertex;
       if (around[v].count > 0) {
         const Frame frame = frame_at(space, point.at.floor);
         const double share = 1.0 / around[v].count;
@@ -154,7 +154,9 @@ class Net {
         const geometry::Vector3 along = to - dot(to, n) * n;
         const double length = geometry::length(along), step = std::min(kInside * length, kInside / options_.density);
         if (length > 1e-9) point.at = point.origin = exponential(space, point.at, frame, (step / length) * along);
+        reach = std::max(reach, step);
       }
+      if (stand_in) point = on_surface(s_.field, point, reach);
       nodes_.push_back({point, {}, {}, false, 0, 0});
     }
   }
@@ -173,7 +175,7 @@ class Net {
           const int k = far_u && far_v ? block.second_turn[0] : block.turn[far_u ? 1 : far_v ? 2 : 0];
           mesh.node.push_back(static_cast<std::int32_t>(vertices + normals.corners[t][static_cast<std::size_t>(k)]));
         } else {
-          const InTriangle at = in_triangle(block, static_cast<double>(i) / (mesh.w - 1), static_cast<double>(j) / (mesh.h - 1));
+          const InTriangle at = within_block(block, static_cast<double>(i) / (mesh.w - 1), static_cast<double>(j) / (mesh.h - 1), kWithin);
           mesh.node.push_back(static_cast<std::int32_t>(nodes_.size()));
           LightPoint point = light_point(s_.room, part, normals, at.triangle, at.b);
           if (stand_in) point = on_surface(s_.field, point, std::max(block.length_u, block.length_v) / 2);

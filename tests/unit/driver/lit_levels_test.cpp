@@ -1,0 +1,73 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "compiler/driver/levels.h"
+#include "compiler/geometry/point.h"
+#include "compiler/light/baked_light.h"
+#include "compiler/light/frame.h"
+#include "compiler/notation/parse.h"
+#include "compiler/place/furnish.h"
+#include "compiler/room/realise.h"
+#include "compiler/scene/defaults.h"
+
+using namespace orbc;
+
+TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is on the box, up to the edges", "[driver]") {
+  const char* notation = GENERATE("*222", "*2222", "*22222");
+  scene::Scene scene = scene::default_scene(notation::parse(notation).value());
+  scene.objects.resize(1);
+  scene.objects[0].shape = scene::BoxSpec{{0.16, 0.16, 0.34}};
+  scene.objects[0].place.floor = scene::AtPolar{0.2, Angle::from_degrees(150)};
+  scene::Lamp lamp;
+  lamp.kind = scene::LampKind::disk;
+  lamp.place.floor = scene::AtPolar{0.05, Angle::from_degrees(30)};
+  lamp.place.z = 0.95 * scene.room.height;
+  lamp.power = 3;
+  scene.lamps = {lamp};
+  const place::PlacedRoom room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
+  const geometry::Space space = room.room.space;
+  light::LightOptions lit;
+  lit.passes = 8, lit.bounces = 2;
+  const light::LightField field = light::prepare_light(scene, room, lit).value();
+
+  const driver::Levels levels = driver::make_levels(room, serial_executor());
+  place::PlacedRoom both = room;
+  for (std::size_t p = 0; p < room.parts.size(); ++p)
+    if (!levels[p].empty()) both.parts.push_back(levels[p].back().mesh);
+  REQUIRE(both.parts.size() == room.parts.size() + 1);
+  const place::PlacedMesh& coarse = both.parts.back();
+  const light::Baked baked = light::bake(both, field, light::BakeOptions{}, serial_executor()).value();
+  const light::BakedLight known(room, baked);
+
+  const light::PartNormals normals = light::part_normals(both, coarse);
+  int compared = 0, off = 0;
+  for (std::size_t b = 0; b < baked.blocks.back().size(); ++b) {
+    const light::Block& block = baked.blocks.back()[b];
+    const light::Box& box = baked.boxes.back()[b];
+    for (const double u : {0.01, 0.3, 0.7, 0.99})
+      for (const double v : {0.01, 0.3, 0.7, 0.99}) {
+        if (block.second < 0 && u + v > 1) continue;
+        const light::InTriangle in = light::in_triangle(block, u, v);
+        const light::LightPoint at = light::light_point(both, coarse, normals, in.triangle, in.b);
+        if (at.at.z < 0.01) continue;
+        // What the box itself shows there, seen from just before it.
+        const light::Frame frame = light::frame_at(space, at.at.floor);
+        const geometry::Vector3 out = light::local(space, frame, at.flat);
+        const geometry::Position before = light::exponential(space, at.at, frame, 0.02 * out);
+        const light::Frame there = light::frame_at(space, before.floor);
+        const trace::Ray ray = trace::ray_from(space, before, light::global(there, -1.0 * out));
+        const trace::Hit hit = trace::closest_triangle(field.scene, ray, 0.05);
+        if (hit.target != trace::Target::triangle) continue;
+        const trace::SurfacePoint seen = trace::surface_at(field.scene, ray, hit);
+        const auto shown = known.at(seen, hit);
+        if (!shown || trace::inner(space, light::light_point(field, room, seen, hit).normal, at.normal) < 0.7) continue;
+        const auto x = static_cast<int>(std::lround(u * (box.width - 1))), y = static_cast<int>(std::lround(v * (box.height - 1)));
+        const double texel = baked.atlas.image.rgba[4 * static_cast<std::size_t>((box.y + y) * baked.atlas.image.width + box.x + x) + 1];
+        ++compared;
+        off += std::fabs(texel - 255 * scene::encode_srgb(shown->g)) > 15;
+      }
+  }
+  INFO(off << " of " << compared << " are off");
+  CHECK(compared > 150);
+  CHECK(off == 0);
+}
