@@ -42,15 +42,13 @@ struct Work {
   double margin = 0;                                              // radians beyond the border of a wedge that count
 };
 
-/// What one copy takes, and how wrong it is. Splits that fit into a small store are kept for the second pass.
+/// What one copy takes, and how wrong it is.
 struct CopyCount {
-  std::size_t vertices = 0, triangles = 0, split_parts = 0;
+  std::size_t vertices = 0, triangles = 0;
   double worst = 0;
   bool too_many = false;
-  std::vector<Tessellation> kept;   ///< all of the copy's splits, or none
+  std::vector<std::vector<bool>> decisions;   ///< Tessellation::decisions of each part that is split: the second pass judges nothing
 };
-
-constexpr std::int64_t kStore = 48 << 20;   // bytes
 
 bool colours_vary(const place::PlacedRoom& room, const place::PlacedMesh& mesh) {
   std::uint16_t last = 0xffff;
@@ -116,9 +114,8 @@ class CopyParts {
   std::vector<CopyPart> parts_;
 };
 
-CopyCount count_copy(const Work& work, std::size_t index, std::uint64_t most, std::atomic<std::int64_t>& store) {
+CopyCount count_copy(const Work& work, std::size_t index, std::uint64_t most) {
   CopyCount count;
-  std::int64_t bytes = 0;
   const CopyMap map = copy_map(work, work.copies[index]);
   for (const auto& [part, uv, flat] : CopyParts(work, index)) {
     const PartNet& net = *part;
@@ -134,19 +131,16 @@ CopyCount count_copy(const Work& work, std::size_t index, std::uint64_t most, st
     count.triangles += fine.triangles.size();
     count.worst = std::max(count.worst, fine.worst);
     count.too_many |= fine.too_many;
-    ++count.split_parts;
-    bytes += static_cast<std::int64_t>(fine.vertices.size() * sizeof(NewVertex) + fine.triangles.size() * sizeof(mesh::Triangle));
-    if (bytes < kStore / 16) count.kept.push_back(std::move(fine));
+    count.decisions.push_back(std::move(fine.decisions));
   }
-  // Which copies are kept depends on who comes first, what is written does not.
-  if (count.kept.size() != count.split_parts || store.fetch_sub(bytes) < bytes) count.kept.clear();
   return count;
 }
 
 /// Writes the pieces of one copy at their places.
 class Writer {
  public:
-  Writer(const Work& work, std::size_t copy_index, const BentRange& range, const std::vector<Tessellation>& kept, BentCover& out)
+  Writer(const Work& work, std::size_t copy_index, const BentRange& range,
+         const std::vector<std::vector<bool>>& decisions, BentCover& out)
       : work_(work), map_(copy_map(work, work.copies[copy_index])), out_(out), vertex_(range.first_vertex), index_(range.first_index) {
     const cover::Copy& copy = work.copies[copy_index];
     // An odd number of reflections turns triangles inside out, and so does going round the sphere to the far side.
@@ -159,10 +153,8 @@ class Writer {
         write_uv(*uv);
         write_triangles(net.mesh->triangles);
         vertex_ += net.points.w.size();
-      } else if (split < kept.size()) {
-        write_fine(net, *uv, kept[split++]);
       } else {
-        write_fine(net, *uv, tessellate(map_, work.sight, net, *uv, std::numeric_limits<std::uint64_t>::max() / 4));
+        write_fine(net, *uv, tessellate_again(map_, work.sight, net, *uv, decisions[split++]));
       }
     }
     ORBC_CHECK(vertex_, ==, range.first_vertex + range.vertex_count);
@@ -250,11 +242,10 @@ Totals count_all(const Work& work, const Executor& executor, const Progress& pro
   Totals totals;
   totals.copies.resize(work.copies.size());
   std::atomic<std::uint64_t> so_far{0};
-  std::atomic<std::int64_t> store{kStore};
   const std::uint64_t most = work.options.max_triangles;
   for_copies(work, executor, progress, "splitting", [&](std::size_t i) {
     if (so_far.load(std::memory_order_relaxed) > most) return;
-    totals.copies[i] = count_copy(work, i, most, store);
+    totals.copies[i] = count_copy(work, i, most);
     so_far.fetch_add(totals.copies[i].triangles, std::memory_order_relaxed);
   });
   for (const CopyCount& c : totals.copies) {
@@ -359,15 +350,15 @@ Result<BentCover> bend(const place::PlacedRoom& room, const std::vector<Model>& 
     next.first_vertex += next.vertex_count;
     next.first_index += next.index_count;
     worst = std::max(worst, totals.copies[i].worst);
-    out.split_parts += totals.copies[i].split_parts;
+    out.split_parts += totals.copies[i].decisions.size();
   }
   out.error_bound_px = worst * work.sight.tolerance;
   out.positions.resize(totals.vertices);
   out.uv.resize(totals.vertices);
   out.indices.resize(3 * totals.triangles);
   for_copies(work, executor, progress, "bending", [&](std::size_t i) {
-    Writer(work, i, out.copies[i], totals.copies[i].kept, out);
-    std::vector<Tessellation>().swap(totals.copies[i].kept);
+    Writer(work, i, out.copies[i], totals.copies[i].decisions, out);
+    std::vector<std::vector<bool>>().swap(totals.copies[i].decisions);
   });
   if (options.view == View::eye) out = cut_as_seen(std::move(out), copies, eye, options.tolerance_px, executor);
   // Cutting may add triangles, but hardly ever does: most of what it meets falls away.

@@ -12,7 +12,7 @@ using geometry::Space;
 geometry::Vector3 bent_position(const LogMap& map, const Ambient& p, double z) {
   const Ambient q = map.eye_from_copy * p;
   if (map.space == Space::euclidean) return {q.x, q.y, z};
-  const double rho = std::hypot(q.x, q.y);
+  const double rho = std::sqrt(q.x * q.x + q.y * q.y);
   const double r = geometry::arc_k(map.space, q.w, rho);
   if (map.sheet == 0) {
     if (rho < 1e-150) return {q.w > 0 ? q.x : r, q.y, z};

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -46,13 +47,14 @@ struct Edge {
 
 class Splitter {
  public:
-  Splitter(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most)
+  /// `known`: what was decided when this part was split before; null: all is judged.
+  Splitter(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most, const std::vector<bool>* known)
       : map_(map),
         sight_(sight),
         net_(net),
         uv_(uv),
         most_(most),
-        samples_(net.longest > 1 ? 7 : 3),
+        known_(known),
         densest_(map.view == View::eye ? densest(sight) : 1) {
     double radius = 0;
     for (const Axis axis : {Axis::foot, Axis::antipode}) radius = std::max(radius, circle(axis));
@@ -101,12 +103,14 @@ class Splitter {
   }
 
   [[nodiscard]] Corner corner(const Ambient& v, double z, std::array<double, 2> uv) const {
-    Corner c{v, z, uv, {}, Axis::none, map_.log.eye_from_copy * v, 0, 1};
+    Corner c{v, z, uv, {}, Axis::none, {0, 0, 0}, 0, 1};
+    if (known_ != nullptr && map_.log.space != Space::spherical) return c;  // no more is asked of it
+    c.seen = map_.log.eye_from_copy * v;
     c.axis = axis_of(c.seen);
     c.at = c.axis == Axis::none ? image_of(map_, v, z) : Vector3{circle(c.axis), 0, z};
     c.norm = std::sqrt(std::fabs(v.w * v.w + geometry::curvature(map_.log.space) * (v.x * v.x + v.y * v.y)));
     // The log map keeps distances, up to the half turns of the sheet.
-    c.distance = std::hypot(c.at.x, c.at.y);
+    c.distance = std::sqrt(c.at.x * c.at.x + c.at.y * c.at.y);
     const int turns = map_.log.sheet;
     if (turns > 0) c.distance = turns % 2 == 1 ? (turns + 1) * std::numbers::pi - c.distance : c.distance - turns * std::numbers::pi;
     return c;
@@ -156,19 +160,10 @@ class Splitter {
       mid.at = {circle(mid.axis), 0, mid.z};
     } else {
       if (depth >= kDeepest) return;
-      const double bound = quick_bound(a, b);
-      if (bound <= 0.5) {
-        out_.worst = std::max(out_.worst, bound);
-        edges_[id].tame = true;
-        return;
-      }
+      bool at_bisector = false;
+      if (!decided([&] { return is_split(id, a, b, at_bisector); })) return;
       const double bisector = bisection(a, b);
-      const Judgement judgement = judge(a, b, bisector);
-      if (!(judgement.share > 1)) {
-        if (judgement.in_picture) out_.worst = std::max(out_.worst, judgement.share);
-        return;
-      }
-      mid = mixed(a, b, bisector > 0 && judgement.worst == samples_ ? bisector : 0.5);
+      mid = mixed(a, b, bisector > 0 && decided([&] { return at_bisector; }) ? bisector : 0.5);
       const Corner placed = corner(mid.v, mid.z, mid.uv);
       mid = placed;
     }
@@ -180,6 +175,34 @@ class Splitter {
     edges_[id].first = static_cast<std::int32_t>(first);
     resolve(first, depth + 1);
     resolve(first + 1, depth + 1);
+  }
+
+  /// What `judge` says, or what it said when this was split before.
+  template <typename Judge>
+  bool decided(const Judge& judge) {
+    if (known_ != nullptr) return (*known_)[next_++];
+    const bool is = judge();
+    out_.decisions.push_back(is);
+    return is;
+  }
+
+  /// Whether an edge is too far from its chord, and then whether most where it is seen halfway around an axis.
+  bool is_split(std::uint32_t id, const Corner& a, const Corner& b, bool& at_bisector) {
+    const double bound = quick_bound(a, b);
+    if (bound <= 0.5) {
+      out_.worst = std::max(out_.worst, bound);
+      edges_[id].tame = true;
+      return false;
+    }
+    const Ambient d = a.v - b.v;
+    const int samples = d.w * d.w + d.x * d.x + d.y * d.y > 0.9 ? 7 : 3;
+    const Judgement judgement = judge(a, b, samples, bisection(a, b));
+    if (!(judgement.share > 1)) {
+      if (judgement.in_picture) out_.worst = std::max(out_.worst, judgement.share);
+      return false;
+    }
+    at_bisector = judgement.worst == samples;
+    return true;
   }
 
   /// A bound of the chord's error from the two ends alone, in tolerances; half of it is enough for a triangle as well (Kℓ²/6 against
@@ -214,12 +237,12 @@ class Splitter {
     return p < q ? share : 1 - share;
   }
 
-  [[nodiscard]] Judgement judge(const Corner& a, const Corner& b, double bisector) const {
+  [[nodiscard]] Judgement judge(const Corner& a, const Corner& b, int samples, double bisector) const {
     Vector3 curve[8];
     double parameter[8];
-    const int count = samples_ + (bisector > 0 ? 1 : 0);
+    const int count = samples + (bisector > 0 ? 1 : 0);
     for (int i = 0; i < count; ++i) {
-      parameter[i] = i == samples_ ? bisector : (i + 1.0) / (samples_ + 1);
+      parameter[i] = i == samples ? bisector : (i + 1.0) / (samples + 1);
       curve[i] = image_of(map_, (1 - parameter[i]) * a.v + parameter[i] * b.v, (1 - parameter[i]) * a.z + parameter[i] * b.z);
     }
     return judge_chord(sight_, seen_with(a, b), seen_with(b, a), curve, parameter, count, net_.along);
@@ -295,17 +318,23 @@ class Splitter {
     for (const std::uint32_t i : t) on_axis += corners_[i].axis != Axis::none;
     if (on_axis > 0) return draw_on_axis(t, e, on_axis);
     if (depth < kDeepest) {
-      const bool tame = edges_[e[0]].tame && edges_[e[1]].tame && edges_[e[2]].tame;
-      const Judgement judgement = tame ? Judgement{0, false, 0} : judge_inside(t);
-      if (judgement.share > 1) {
+      if (decided([&] { return is_bent(t, e); })) {
         const Corner &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
         std::array<double, 2> uv{};
         for (int k = 0; k < 2; ++k) uv[k] = (a.uv[k] + b.uv[k] + c.uv[k]) / 3;
         return split_at(t, e, add(corner((1.0 / 3) * (a.v + b.v + c.v), (a.z + b.z + c.z) / 3, uv)), depth);
       }
-      if (judgement.in_picture) out_.worst = std::max(out_.worst, judgement.share);
     }
     draw(t[0], t[1], t[2]);
+  }
+
+  /// Whether the inside of a triangle is too far from flat.
+  bool is_bent(const Three& t, const Three& e) {
+    if (edges_[e[0]].tame && edges_[e[1]].tame && edges_[e[2]].tame) return false;
+    const Judgement judgement = judge_inside(t);
+    if (judgement.share > 1) return true;
+    if (judgement.in_picture) out_.worst = std::max(out_.worst, judgement.share);
+    return false;
   }
 
   void split_at(const Three& t, const Three& e, std::uint32_t point, int depth) {
@@ -408,7 +437,8 @@ class Splitter {
   const PartNet& net_;
   const Uv& uv_;
   std::uint64_t most_;
-  int samples_;
+  const std::vector<bool>* known_;
+  std::size_t next_ = 0;              ///< in `known_`
   double densest_;
   int steps_ = 8;
   std::vector<Corner> corners_;
@@ -428,7 +458,12 @@ geometry::Vector3 image_of(const CopyMap& map, const Ambient& v, double z) {
 }
 
 Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most) {
-  return Splitter(map, sight, net, uv, most).run();
+  return Splitter(map, sight, net, uv, most, nullptr).run();
+}
+
+Tessellation tessellate_again(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv,
+                              const std::vector<bool>& decisions) {
+  return Splitter(map, sight, net, uv, std::numeric_limits<std::uint64_t>::max() / 4, &decisions).run();
 }
 
 }  // namespace orbc::bend

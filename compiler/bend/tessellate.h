@@ -53,8 +53,9 @@ struct NewVertex {
 struct Tessellation {
   std::vector<NewVertex> vertices;
   std::vector<mesh::Triangle> triangles;
-  double worst = 0;       ///< largest error in the picture, in tolerances
-  bool too_many = false;  ///< stopped at `most` triangles
+  std::vector<bool> decisions;  ///< of every edge and triangle, as they came up, whether it is split
+  double worst = 0;             ///< largest error in the picture, in tolerances
+  bool too_many = false;        ///< stopped at `most` triangles
 };
 
 /// Splits the part until every chord and every triangle lies within the tolerance. Each edge is judged by itself, from what its two ends
@@ -62,5 +63,10 @@ struct Tessellation {
 /// T-junctions. On S² the axes through the eye's foot and its antipode, where the image is torn, are cut out: a triangle around one becomes
 /// a ring that ends on the circle that is the image of the axis.
 [[nodiscard]] Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most);
+
+/// The same vertices and triangles from what was decided: nothing is judged again. Only vertices that are `fixed` are told where they lie in
+/// the picture; `decisions` and `worst` stay empty.
+[[nodiscard]] Tessellation tessellate_again(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv,
+                                            const std::vector<bool>& decisions);
 
 }  // namespace orbc::bend

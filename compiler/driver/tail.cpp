@@ -26,7 +26,7 @@ constexpr int kDeeper = 96;                // bounces beyond the cut-off
 constexpr double kNothing = 1e-4;          // weight
 constexpr double kInto = 0.25;             // of the room's height: more than the edges of floors are off by, far away
 constexpr double kSlack = 1e-6;            // of a size
-constexpr int kBands = 3;                  // above and below the eye
+constexpr double kBands[] = {0.08, 0.22, 0.42, 0.68};   // of the way from the height of the eye to floor and ceiling: near it paths are longest
 
 struct Sum {
   scene::Color weight, radiance;
@@ -220,8 +220,9 @@ Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const Be
 std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& eye) {
   std::vector<double> bands;
   if (std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; })) return bands;
-  for (int k = 1; k < kBands; ++k) bands.push_back(eye.z * k / kBands);
-  for (int k = 0; k < kBands; ++k) bands.push_back(eye.z + (room.height - eye.z) * k / kBands);
+  for (const double share : kBands) bands.insert(bands.begin(), eye.z * (1 - share));
+  bands.push_back(eye.z);
+  for (const double share : kBands) bands.push_back(eye.z + (room.height - eye.z) * share);
   return bands;
 }
 

@@ -11,7 +11,7 @@ Point normalised_point(Space space, const Ambient& v) {
     const double n = 1 / std::sqrt(v.w * v.w + v.x * v.x + v.y * v.y);
     return {n * v.w, n * v.x, n * v.y};
   }
-  const double rho = std::hypot(v.x, v.y);
+  const double rho = std::sqrt(v.x * v.x + v.y * v.y);  // not hypot: this is asked of every point of every edge that is bent
   const double n = 1 / std::sqrt((v.w - rho) * (v.w + rho));
   const double x = n * v.x, y = n * v.y;
   return {std::sqrt(1 + x * x + y * y), x, y};

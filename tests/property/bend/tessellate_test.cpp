@@ -29,6 +29,15 @@ CopyMap map_for(const place::Eye& eye, const cover::Copy& copy) {
   return {View::eye, {eye.room_from_eye.space, geometry::matrix(inverse(eye.room_from_eye) * copy.cover_from_room), copy.sheet}};
 }
 
+/// Whether two tessellations have the same bits: vertices as they are in the room, or on a circle of S²; triangles.
+bool same(const Tessellation& a, const Tessellation& b) {
+  const auto alike = [](const NewVertex& p, const NewVertex& q) {
+    const bool at = !p.fixed || (p.at.x == q.at.x && p.at.y == q.at.y && p.at.z == q.at.z);
+    return p.v.w == q.v.w && p.v.x == q.v.x && p.v.y == q.v.y && p.z == q.z && p.uv == q.uv && p.fixed == q.fixed && at;
+  };
+  return a.triangles == b.triangles && std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), alike);
+}
+
 /// A tessellation as plain arrays: homogeneous room vectors and images of all vertices.
 struct Flat {
   std::vector<geometry::Ambient> v;
@@ -42,6 +51,7 @@ struct Flat {
 Flat flat_of(const CopyMap& map, const Sight& sight, const PartNet& net) {
   const Tessellation fine = tessellate(map, sight, net, Uv(net.mesh->floor.size()), 1'000'000);
   REQUIRE(!fine.too_many);
+  CHECK(same(fine, tessellate_again(map, sight, net, Uv(net.mesh->floor.size()), fine.decisions)));
   Flat flat;
   for (std::size_t i = 0; i < net.mesh->floor.size(); ++i) {
     flat.v.push_back(net.mesh->floor[i]);

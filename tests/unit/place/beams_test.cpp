@@ -92,7 +92,7 @@ TEST_CASE("frames stay in the room and are open only where they meet their mirro
           CHECK(overhang(room, frames[i].floor[v]).distance < 1e-11);
           CHECK((frames[i].z[v] >= 0 && frames[i].z[v] <= 1));
           CHECK(geometry::signed_distance(room.space, room.walls[i].line, frames[i].floor[v]) <=
-                0.02 + 4e-5);  // chords bulge by a thousandth of the width
+                0.02 + 1.6e-4);  // chords bulge by width / 250
         }
       }
       // Joined at the mitres, nothing is open but on walls, floor and ceiling. Mitred cuts are made twice, so they agree to rounding only.
