@@ -139,8 +139,8 @@ CopyCount count_copy(const Work& work, std::size_t index, std::uint64_t most) {
 /// Writes the pieces of one copy at their places.
 class Writer {
  public:
-  Writer(const Work& work, std::size_t copy_index, const BentRange& range,
-         const std::vector<std::vector<bool>>& decisions, BentCover& out)
+  Writer(const Work& work, std::size_t copy_index, const BentRange& range, const std::vector<std::vector<bool>>& decisions,
+         BentCover& out)
       : work_(work), map_(copy_map(work, work.copies[copy_index])), out_(out), vertex_(range.first_vertex), index_(range.first_index) {
     const cover::Copy& copy = work.copies[copy_index];
     // An odd number of reflections turns triangles inside out, and so does going round the sphere to the far side.

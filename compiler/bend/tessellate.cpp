@@ -81,6 +81,7 @@ class Splitter {
       const Corner& c = corners_[i];
       out_.vertices.push_back({c.v, c.z, c.uv, c.at, c.axis != Axis::none});
     }
+    if (known_ != nullptr) ORBC_CHECK(next_, ==, known_->size());
     return std::move(out_);
   }
 

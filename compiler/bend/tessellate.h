@@ -64,8 +64,8 @@ struct Tessellation {
 /// a ring that ends on the circle that is the image of the axis.
 [[nodiscard]] Tessellation tessellate(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv, std::uint64_t most);
 
-/// The same vertices and triangles from what was decided: nothing is judged again. Only vertices that are `fixed` are told where they lie in
-/// the picture; `decisions` and `worst` stay empty.
+/// The same vertices and triangles from what was decided: nothing is judged again. Only vertices that are `fixed` are told where they lie
+/// in the picture; `decisions` and `worst` stay empty.
 [[nodiscard]] Tessellation tessellate_again(const CopyMap& map, const Sight& sight, const PartNet& net, const Uv& uv,
                                             const std::vector<bool>& decisions);
 

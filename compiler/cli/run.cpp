@@ -216,7 +216,9 @@ void define_verify(CLI::App& app, VerifyArguments& a, Common& common) {
   c->get_option("--quality")
       ->description(
           "How finely light is baked: draft, normal or fine; when not given, fine in the export, and the tracer takes the scene's");
-  c->footer("Examples:\n  orbc verify s.yaml\n  orbc verify lit.yaml --samples 64 --within 4 --threshold 0.99\n  orbc verify s.yaml --blender --difference diff.png");
+  c->footer(
+      "Examples:\n  orbc verify s.yaml\n  orbc verify lit.yaml --samples 64 --within 4 --threshold 0.99\n"
+      "  orbc verify s.yaml --blender --difference diff.png");
   add_common(*c, common);
 }
 

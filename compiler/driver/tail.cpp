@@ -26,7 +26,8 @@ constexpr int kDeeper = 96;                // bounces beyond the cut-off
 constexpr double kNothing = 1e-4;          // weight
 constexpr double kInto = 0.25;             // of the room's height: more than the edges of floors are off by, far away
 constexpr double kSlack = 1e-6;            // of a size
-constexpr double kBands[] = {0.08, 0.22, 0.42, 0.68};   // of the way from the height of the eye to floor and ceiling: near it paths are longest
+// Of the way from the height of the eye to floor and ceiling: near it paths are longest
+constexpr double kBands[] = {0.08, 0.22, 0.42, 0.68};
 
 struct Sum {
   scene::Color weight, radiance;

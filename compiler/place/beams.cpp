@@ -68,8 +68,8 @@ class Quads {
   std::map<Place, std::uint32_t> known_;
 };
 
-// Chord h of an equidistant at depth d: sagitta tanκ(d)·h²/8 ≤ width/250 at d = width/2 gives h = 0.253: a quarter of a pixel where a beam is
-// 62 pixels wide, and each copy has the triangles.
+// Chord h of an equidistant at depth d: sagitta tanκ(d)·h²/8 ≤ width/250 at d = width/2 gives h = 0.253: a quarter of a pixel where a beam
+// is 62 pixels wide, and each copy has the triangles.
 int step_count(Space space, double length) {
   return space == Space::euclidean ? 1 : std::max(1, static_cast<int>(std::ceil(length / 0.253)));
 }
