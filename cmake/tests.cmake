@@ -21,7 +21,8 @@ function(orbc_tests name folder)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE orbc_test_main ${TEST_USES} ${TEST_LIBRARIES})
   target_compile_definitions(${name} PRIVATE ORBC_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ORBC_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  # [long]: the same code over many rooms; under sanitizers that takes minutes and shows nothing more.
+  add_test(NAME ${name} COMMAND ${name} $<$<BOOL:${ORBC_SANITIZE}>:~[long]> WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} COMMAND_EXPAND_LISTS)
   set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 600)
 endfunction()
 
@@ -67,3 +68,9 @@ if(ORBC_FUZZ)  # tests/fuzz/<room>_fuzz.cpp; everything it links is instrumented
   endforeach()
 endif()
 include(cmake/system_tests.cmake OPTIONAL)
+# The longest first, so that no core waits for one of them in the end.
+foreach(test watertight_thousand system_examples system_verify_rooms test_driver property_bend property_trace system_command_line)
+  if(TEST ${test})
+    set_tests_properties(${test} PROPERTIES COST 100)
+  endif()
+endforeach()

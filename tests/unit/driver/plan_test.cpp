@@ -37,7 +37,7 @@ bool near(std::uint64_t planned, double real) { return std::fabs(static_cast<dou
 
 }  // namespace
 
-TEST_CASE("the plan foresees copies exactly, and triangles, vertices and bytes within a fifth", "[driver]") {
+TEST_CASE("the plan foresees copies exactly, and triangles, vertices and bytes within a fifth", "[driver][long]") {
   const Executor executor = driver::parallel_executor();
   for (const std::string& path : rooms()) {
     const auto opened = open_or_fail(path);
@@ -82,7 +82,7 @@ TEST_CASE("the plan foresees panels and budgets as well", "[driver]") {
   if (r.left_out > 0) CHECK((r.curtains > 0 || r.curtains_dropped));
 }
 
-TEST_CASE("few copies tell of all", "[driver]") {
+TEST_CASE("few copies tell of all", "[driver][long]") {
   const Executor executor = driver::parallel_executor();
   for (const std::string& path : rooms()) {
     const auto opened = open_or_fail(path);
