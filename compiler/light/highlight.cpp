@@ -63,12 +63,12 @@ struct Lobe {
 };
 
 /// What the facets reflect of one image of a lamp.
-Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe) {
+Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe, const Turn& asked_by) {
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const double power = largest(lamp.power) * field.exposure;
   const Way middle = way_to(lobe.space, lobe.point.origin, image.samples[0], image.sheet);
   const auto all = static_cast<int>(image.samples.size()) - 1;
-  const int count = std::max(1, all);
+  const int count = std::max(1, all), asks = std::max(std::min(count, kProbes), count / asked_by.of);
   const double turn = middle.length > 1e-9 ? lamp.extent / middle.length : 4, patch = turn / 2;
   const double wide = all > 0 ? std::min(0.25, patch * patch * std::numbers::pi / count) : 0;
   if (middle.exists && turn < 0.5) {
@@ -79,8 +79,8 @@ Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe
   Color sum, seen;
   int asked = 0;
   bool same = true;
-  for (int i = 0; i < count; ++i) {
-    const auto sample = static_cast<std::size_t>(all > 0 ? i + 1 : 0);
+  for (int i = 0; i < asks; ++i) {
+    const auto sample = static_cast<std::size_t>(all > 0 ? (asked_by.rank * asks + i) % all + 1 : 0);
     const Way way = way_to(lobe.space, lobe.point.origin, image.samples[sample], image.sheet);
     if (!way.exists) continue;
     const double share = lobe.shine(way.start, wide);
@@ -95,13 +95,13 @@ Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe
     }
     sum = sum + light * seen;
   }
-  return (1.0 / count) * (lamp.power * sum);
+  return (1.0 / asks) * (lamp.power * sum);
 }
 
 }  // namespace
 
 Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material,
-                const Color& albedo) {
+                const Color& albedo, const Turn& turn) {
   const Space space = field.scene.prism.space;
   const double alpha = std::max(material.roughness * material.roughness, 0.002);
   const bool metal = material.kind == scene::MaterialKind::metal;
@@ -109,7 +109,7 @@ Color highlight(const LightField& field, const LightPoint& point, const Directio
   const Lobe lobe{space, point, to_eye, alpha * alpha, f0, trace::inner(space, point.normal, to_eye)};
   if (lobe.nv <= 0) return {};
   Color sum;
-  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + gathered(field, field.images[i], lobe);
+  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + gathered(field, field.images[i], lobe, turn);
   return metal ? albedo * sum : sum;
 }
 

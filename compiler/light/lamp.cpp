@@ -1,6 +1,6 @@
 // Samples: a Kronecker sequence (golden ratio, and in two dimensions the plastic number: Roberts, The unreasonable effectiveness of
-//          quasirandom sequences,
-// 2018), whose every beginning is well spread; spheres by Archimedes' map from the cylinder.
+// quasirandom sequences, 2018), whose every beginning is well spread; each with its mirror image in the lamp's middle, so that their mean is
+// just there; spheres by Archimedes' map from the cylinder.
 #include "compiler/light/lamp.h"
 
 #include <fmt/format.h>
@@ -27,12 +27,17 @@ constexpr double kDefaultHeight = 0.9;  // of the room's
 
 double fraction(double v) { return v - std::floor(v); }
 
-// The i-th point of the unit square; the first four have its mean and its second moments.
+// From the fifth on samples come in pairs about the middle: which pair, and whether it is the second of it.
+int pair_of(int i) { return (i - kDesign) / 2; }
+bool opposite(int i) { return i >= kDesign && (i - kDesign) % 2 == 1; }
+
+// The i-th point of the unit square; the first four have its mean and its second moments, the others come in equal pairs.
 std::array<double, 2> spread(int i) {
   constexpr double kAside = 0.28867513459481287;  // 1/√12
   if (i < kDesign) return {0.5 + (i % 2 ? kAside : -kAside), 0.5 + (i / 2 ? kAside : -kAside)};
   constexpr double kPlastic = 1.32471795724474602596;
-  return {fraction(0.5 + (i + 1) / kPlastic), fraction(0.5 + (i + 1) / (kPlastic * kPlastic))};
+  const int k = pair_of(i) + 1;
+  return {fraction(0.5 + k / kPlastic), fraction(0.5 + k / (kPlastic * kPlastic))};
 }
 
 /// The lamp's own frame: axis, and two vectors across.
@@ -59,6 +64,7 @@ Mount mount_of(Space space, const Position& centre, const std::optional<Position
 }
 
 Vector3 offset(const scene::Lamp& lamp, const Mount& mount, int i) {
+  if (opposite(i)) return -1.0 * offset(lamp, mount, i - 1);
   const auto [u, v] = spread(i);
   if (lamp.kind == LampKind::rectangle) return ((u - 0.5) * lamp.size[0]) * mount.across + ((v - 0.5) * lamp.size[1]) * mount.other;
   const double turn = 2 * std::numbers::pi * u;
@@ -66,8 +72,7 @@ Vector3 offset(const scene::Lamp& lamp, const Mount& mount, int i) {
     return ((i % 2 ? 0.5 : -0.5) * lamp.radius) * mount.across + ((i / 2 ? 0.5 : -0.5) * lamp.radius) * mount.other;
   if (lamp.kind == LampKind::disk)
     return (lamp.radius * std::sqrt(v) * std::cos(turn)) * mount.across + (lamp.radius * std::sqrt(v) * std::sin(turn)) * mount.other;
-  // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on the sphere of radius √(3/4) of
-  //                                                                                                     it.
+  // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on the sphere of radius √(3/4) of it.
   if (i < kDesign) {  // a tetrahedron
     const double side = lamp.radius / 2, x = i == 0 || i == 1 ? side : -side, y = i == 0 || i == 2 ? side : -side;
     return {x, y, i == 0 || i == 3 ? side : -side};
@@ -85,7 +90,10 @@ void add_samples(const scene::Lamp& lamp, Space space, const std::optional<Posit
     };
     add(segment.length / 2);
     for (const double u : {0.104, 0.4, 0.6, 0.896}) add(segment.length * u);  // mean ½, variance 1/12
-    for (int i = kDesign; i < kSamples; ++i) add(segment.length * fraction(0.5 + (i + 1) * 0.6180339887498949));
+    for (int i = kDesign; i < kSamples; ++i) {
+      const double u = fraction(0.5 + (pair_of(i) + 1) * 0.6180339887498949);
+      add(segment.length * (opposite(i) ? 1 - u : u));
+    }
     hung.centre = hung.samples.front();
     hung.extent = segment.length / 2 + lamp.radius;
     return;

@@ -8,6 +8,7 @@
 
 #include "compiler/light/falloff.h"
 #include "compiler/light/guide.h"
+#include "compiler/light/random.h"
 #include "compiler/light/way.h"
 #include "compiler/place/texel.h"
 
@@ -20,6 +21,7 @@ using scene::Color;
 using trace::Direction;
 
 constexpr int kProbes = kDesign;      // samples that decide whether there is a penumbra at all
+constexpr double kMostShared = 4;     // steps that one turn of several may be off, for each image
 constexpr double kSmall = 0.25;       // extent of a lamp over its distance: the third order is 1.5 % of it, and less of the light
 
 /// About how much an image could add at a point; 0 only where it surely adds nothing.
@@ -39,29 +41,52 @@ double at_most(const LightField& field, const LampImage& image, double length, d
   return at_most(field.scene.prism.space, field.lamps[static_cast<std::size_t>(image.lamp)], image.weight, field.exposure, length, arc);
 }
 
+/// What one turn asks of an image: `count` of the lamp's first `all` samples from `first` on, going round; for `weight` images.
+struct Ask {
+  int all = 1, first = 0, count = 0;
+  double weight = 1;
+};
+
+/// In: how much the image could add, in steps; a number of its own, so that not all faint images have the same turn.
+Ask ask_of(double steps, int samples, const Turn& turn, std::uint32_t image) {
+  const int all = samples > 0 ? std::clamp(static_cast<int>(std::ceil(steps)), 1, samples) : 1;
+  if (turn.of == 1) return {all, 0, all, 1};
+  // Each turn may be off by more than their mean; how much more shows where several surfaces share the pixel.
+  steps /= std::min(kMostShared, std::sqrt(turn.of));
+  const int count = std::clamp(static_cast<int>(std::ceil(steps)), 1, all);
+  if (steps >= 0.5) return {all, turn.rank * count, count, 1};
+  // Faint: asked by every second, third, … turn, for a number that divides all turns.
+  int every = 1;
+  for (int m = 2; m <= turn.of && m * steps <= 1; ++m)
+    if (turn.of % m == 0) every = m;
+  if ((static_cast<std::uint64_t>(turn.rank) + mixed(image)) % static_cast<std::uint64_t>(every) != 0) return {};
+  return {all, turn.rank / every, 1, static_cast<double>(every)};
+}
+
 /// Adds up f(way, light) over the samples of an image, light = unhindered × weight; f(way) = 0 costs no ray.
 template <class F>
-Color gather(const LightField& field, const LampImage& image, const LightPoint& point, bool by_cosine, const F& f) {
+Color gather(const LightField& field, std::uint32_t number, const LightPoint& point, const Turn& turn, const F& f) {
+  const LampImage& image = field.images[number];
   const Space space = field.scene.prism.space;
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way middle = way_to(space, point.origin, image.samples[0], image.sheet);
   double most = at_most(field, image, middle.length, middle.arc);
   if (most < field.options.cut) return {};
-  if (by_cosine && middle.exists) {  // the lamp's own extent turns the direction to its samples by little
+  if (middle.exists) {  // the lamp's own extent turns the direction to its samples by little
     const double cosine = trace::inner(space, middle.start, point.normal) + 2 * lamp.extent / middle.length;
     if (cosine <= 0 && middle.length > 2 * lamp.extent) return {};
     if (cosine < 1 && image.sheet == 0) most *= std::max(cosine, 0.0);
     if (most < field.options.cut) return {};
   }
-  const int all = static_cast<int>(image.samples.size()) - 1;
-  const int count = all > 0 ? std::clamp(static_cast<int>(std::ceil(most / field.options.step)), 1, all) : 1;
-  const auto sample = [&](int i) { return static_cast<std::size_t>(count == 1 ? 0 : i + 1); };
+  const Ask ask = ask_of(most / field.options.step, static_cast<int>(image.samples.size()) - 1, turn, number);
+  if (ask.count == 0) return {};
+  const auto sample = [&](int i) { return static_cast<std::size_t>(ask.all == 1 ? 0 : (ask.first + i) % ask.all + 1); };
   Color sum, seen;
   int asked = 0;
   bool same = true;
   // The probes alone give the light of the whole lamp to the third order in its size (lamp.cpp), so where they agree they are enough.
-  const bool small = lamp.extent < kSmall * middle.length;
-  int used = count;
+  const bool small = turn.of == 1 && lamp.extent < kSmall * middle.length;
+  int used = ask.count;
   for (int i = 0; i < used; ++i) {
     const Way way = way_to(space, point.origin, image.samples[sample(i)], image.sheet);
     const double share = way.exists ? f(way) : 0;
@@ -77,11 +102,11 @@ Color gather(const LightField& field, const LampImage& image, const LightPoint& 
     }
     if (i + 1 == kProbes && small && same && asked == kProbes) used = kProbes;
   }
-  return (1.0 / used) * (lamp.power * sum);
+  return (ask.weight / used) * (lamp.power * sum);
 }
 
-Color falling(const LightField& field, const LampImage& image, const LightPoint& point) {
-  return gather(field, image, point, true, [&](const Way& way) { return trace::inner(field.scene.prism.space, way.start, point.normal); });
+Color falling(const LightField& field, std::uint32_t image, const LightPoint& point, const Turn& turn) {
+  return gather(field, image, point, turn, [&](const Way& way) { return trace::inner(field.scene.prism.space, way.start, point.normal); });
 }
 
 }  // namespace
@@ -128,15 +153,15 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
   return field;
 }
 
-Color irradiance(const LightField& field, const LightPoint& point) {
+Color irradiance(const LightField& field, const LightPoint& point, const Turn& turn) {
   Color sum;
-  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + falling(field, field.images[i], point);
+  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + falling(field, i, point, turn);
   return sum;
 }
 
 Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images) {
   Color sum;
-  for (const std::uint32_t i : images) sum = sum + falling(field, field.images[i], point);
+  for (const std::uint32_t i : images) sum = sum + falling(field, i, point, {});
   return sum;
 }
 

@@ -44,11 +44,17 @@ struct LightField {
 [[nodiscard]] Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options = {},
                                                const Executor& executor = serial_executor());
 
+/// Many samples of one pixel share out what they ask of the lamps: together they ask as much as is needed, each a part of it.
+struct Turn {
+  int rank = 0;                     ///< of this sample; those of every class of remainders must be spread over the pixel
+  int of = 1;                       ///< samples of the pixel; 1: asks all by itself
+};
+
 /// Power per area that falls on a surface point from all lamps, straight and over mirrors.
 /// Units:  a lamp of power Φ gives Φ/(4πr²) at distance r in E², face on. Ambient light is not in it.
 /// Error:  shadows of lamps with an extent are those of 32 points; images below `cut` are left out; light that comes by surfaces other than
-///         mirrors is not in it.
-[[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point);
+///         mirrors is not in it. Of a turn the mean over all turns counts; alone it may be off by 4 steps for each image.
+[[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point, const Turn& turn = {});
 /// The same from some of the images.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images);
 /// The images that can add anything at points within `radius` of a position: for many points that lie together. `share`: of the cut.
@@ -76,6 +82,6 @@ struct LightField {
 /// lamp with an extent all samples count.
 /// Error:   highlights that cannot reach 1/3000 of white are left out.
 [[nodiscard]] scene::Color highlight(const LightField& field, const LightPoint& point, const trace::Direction& to_eye,
-                                     const scene::Material& material, const scene::Color& albedo);
+                                     const scene::Material& material, const scene::Color& albedo, const Turn& turn = {});
 
 }  // namespace orbc::light

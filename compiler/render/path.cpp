@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "compiler/light/guide.h"
 #include "compiler/light/leg.h"
@@ -45,9 +46,18 @@ Color walked(const place::PlacedRoom& room, const light::LightField& field, cons
 }  // namespace
 
 Chance::Chance(std::uint64_t seed, std::uint64_t pixel, int sample, int samples)
-    : random(seed, pixel, static_cast<std::uint64_t>(sample)), before(sample / std::min(samples, kGroups)) {
+    : random(seed, pixel, static_cast<std::uint64_t>(sample)), before(sample / std::min(samples, kGroups)), turn(turn_of(sample, samples)) {
   light::Random of_group(~seed, pixel, static_cast<std::uint64_t>(group_of(sample, samples)));
   for (double& v : shift) v = of_group.next();
+}
+
+light::Turn Chance::turn_of(int sample, int samples) {
+  const int side = static_cast<int>(std::lround(std::sqrt(samples)));
+  if (side * side != samples) return {sample, samples};  // a lattice already
+  const int i = sample % side, j = sample / side;
+  int slope = std::max(1, static_cast<int>(std::lround(0.382 * side)));
+  while (std::gcd(slope, side) != 1) ++slope;
+  return {(i + slope * j) % side + side * j, samples};
 }
 
 Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, Chance& chance, int paths) {

@@ -15,8 +15,11 @@ struct Chance {
   light::Random random{0};
   std::array<double, 6> shift{0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
   int before = 0;                   ///< earlier samples of the same lattice
+  light::Turn turn;                 ///< of the lamps: what this sample asks
   Chance() = default;
   Chance(std::uint64_t seed, std::uint64_t pixel, int sample, int samples);
+  /// The order of a pixel's samples in which those with the same remainder, by any number, lie apart: on a grid a lattice of diagonals.
+  [[nodiscard]] static light::Turn turn_of(int sample, int samples);
   [[nodiscard]] static int group_of(int sample, int samples) { return sample % std::min(samples, kGroups); }
 };
 

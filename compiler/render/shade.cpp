@@ -58,8 +58,8 @@ struct Walker {
     const bool shines = material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
     const double white = light::white_of(field);
     const auto known = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
-    Color out = known ? white * *known : light::radiance_out(field, material, color, light::irradiance(field, at));
-    if (shines) out = out + light::highlight(field, at, -point.arriving, material, color);
+    Color out = known ? white * *known : light::radiance_out(field, material, color, light::irradiance(field, at, chance.turn));
+    if (shines) out = out + light::highlight(field, at, -point.arriving, material, color, chance.turn);
     out = at_most(out, white);
     if (known || field.options.passes == 0) return add(weight * out);
     // What a guess lifts beyond white must not be cut off guess by guess: their mean would become too dark.

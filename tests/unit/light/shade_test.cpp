@@ -190,6 +190,35 @@ TEST_CASE("a lamp that reaches through a wall is refused; one without power is t
   CHECK(light::hang_lamps(scene, room)->warnings.front().code == "light.no-power");
 }
 
+TEST_CASE("the samples of a pixel together see the light that one alone sees, with fewer shadow rays each", "[light]") {
+  for (const char* orbifold : {"*222", "*333", "*22222"})
+    for (const scene::LampKind kind : {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::rectangle}) {
+      scene::Scene scene = lit_scene(orbifold, kind, true);
+      scene.lamps.front().power = 3;
+      const Lit l = lit(scene, 3);
+      REQUIRE(l.field.images.size() > 5);
+      for (const int samples : {2, 4, 9, 16, 64}) {
+        double most = 0, spread = 0;
+        for (int k = 0; k < 20; ++k) {
+          const geometry::Point p =
+              geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
+          const light::LightPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
+          const double whole = light::irradiance(l.field, point).r / kPi;
+          double sum = 0;
+          for (int s = 0; s < samples; ++s) {
+            const double one = light::irradiance(l.field, point, light::Turn{s, samples}).r / kPi;
+            sum += one, spread = std::max(spread, std::fabs(one - whole));
+          }
+          most = std::max(most, std::fabs(sum / samples - whole));
+        }
+        INFO(orbifold << ", " << samples << " samples");
+        CHECK(most < l.field.options.step / 2);
+        CHECK(spread < 0.25);  // each may be off by its steps, since only the mean is seen
+        if (samples == 64) CHECK(spread > 0);
+      }
+    }
+}
+
 TEST_CASE("a white surface under E = π shows as white", "[light]") {
   light::LightField field;
   const scene::Color shown = light::radiance_out(field, {}, {1, 1, 1}, {kPi, kPi / 2, 0});

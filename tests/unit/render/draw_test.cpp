@@ -114,7 +114,8 @@ TEST_CASE("drawn in streams the film is that of single rays, bit by bit", "[rend
           scene::Color sum;
           const auto pixel = static_cast<std::size_t>(y * eye.width + x);
           for (std::size_t i = 0; i < points.size(); ++i) {
-            const render::Seen seen = render::radiance(scene, render::eye_ray(eye, x + points[i][0], y + points[i][1]), options);
+            const render::Chance chance(light.options.seed, pixel, static_cast<int>(i), options.samples);
+            const render::Seen seen = render::radiance(scene, render::eye_ray(eye, x + points[i][0], y + points[i][1]), options, chance);
             sum = sum + seen.radiance;
             if (i > 0) continue;
             different +=

@@ -186,6 +186,31 @@ TEST_CASE("the stated error of a path-traced film is the spread between seeds, a
   CHECK(render::noise_of(a, 1) > 0);
 }
 
+TEST_CASE("every turn of a pixel comes once, and those with one remainder are spread over the pixel", "[render]") {
+  for (int samples = 1; samples <= 100; ++samples) {
+    const auto points = render::sample_points(samples);
+    std::vector<int> seen(static_cast<std::size_t>(samples), 0);
+    for (int s = 0; s < samples; ++s) {
+      const light::Turn turn = render::Chance::turn_of(s, samples);
+      CHECK(turn.of == samples);
+      ++seen.at(static_cast<std::size_t>(turn.rank));
+    }
+    CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+    const int side = static_cast<int>(std::lround(std::sqrt(samples)));
+    for (int every = 2; every <= samples / 4 && side * side == samples; ++every) {
+      if (samples % every != 0) continue;
+      for (int rest = 0; rest < every; ++rest) {  // their middle is about that of the pixel
+        double x = 0, y = 0;
+        for (int s = 0; s < samples; ++s)
+          if (render::Chance::turn_of(s, samples).rank % every == rest)
+            x += points[static_cast<std::size_t>(s)][0], y += points[static_cast<std::size_t>(s)][1];
+        INFO(samples << ": every " << every << ", " << rest);
+        CHECK(std::hypot(x * every / samples - 0.5, y * every / samples - 0.5) < 0.26);
+      }
+    }
+  }
+}
+
 TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that it gives", "[render]") {
   for (const char* notation : kRooms) {
     scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, true);
