@@ -45,7 +45,7 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
   if (options.highlights && options.lit && light::needs_highlights(*opened.room, field)) {
     light::HighlightOptions shine = light::highlight_options(opened.scene.bake);
     shine.max_side = options.max_side;
-    if (light::has_mirror_or_glass(*opened.room)) shine.seen_in = see_in(opened, &*baked, executor);
+    if (light::shows_room(*opened.room, field.lit)) shine.seen_in = see_in(opened, &*baked, executor);
     painted.highlights = light::bake_highlights(room, field, copies, drawn, opened.eye, shine, *baked, executor, progress);
   }
   painted.atlas = std::move(baked->atlas);

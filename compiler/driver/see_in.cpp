@@ -31,6 +31,7 @@ orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry
   const orbc::trace::Hit hit = closest(scene, back);
   double step = std::max(kBack * scene.room->height, 2 * beside);
   if (hit.target != orbc::trace::Target::triangle) step = std::min(step, hit.t / 2);   // never out of the room
+  else if (!surface_at(scene, back, hit).outside) step = std::max(step, hit.t + kBack * scene.room->height);  // out of the body first
   return ray_from(space, position_at(space, back, step), -direction_at(space, back, step));
 }
 
@@ -40,13 +41,18 @@ light::SeenIn see_in(const Opened& opened, const light::Baked* baked, const Exec
   const Prepared& ready = prepared(opened, executor);
   const auto looking = std::make_shared<Looking>(
       Looking{ready.scene, ready.light, draw_options(opened, ready.light, executor), std::nullopt, opened.scene.exposure});
+  if (opened.scene.bake.quality != scene::BakeQuality::fine)
+    looking->draw.glances = opened.scene.bake.quality == scene::BakeQuality::draft ? 4 : 16;
   if (baked && ready.light.lit) looking->draw.baked = &looking->baked.emplace(*opened.room, *baked);
-  return [looking](const geometry::Position& at, const orbc::trace::Direction& to_eye, const cover::Copy& copy, double beside) {
+  return [looking](const geometry::Position& at, const orbc::trace::Direction& to_eye, const cover::Copy& copy, double beside,
+                   const light::Turn& turn) {
     orbc::trace::FollowOptions follow = render::follow_options(looking->draw);
     follow.bounces = copy.bounces;
     follow.weight = copy.weight;
+    render::Chance chance;
+    chance.turn = turn;
     const orbc::trace::Path path = orbc::trace::follow(looking->scene, looking_at(looking->scene, at, to_eye, beside), follow);
-    const scene::Color c = looking->exposure * render::radiance(looking->scene, path, looking->draw).radiance;
+    const scene::Color c = looking->exposure * render::radiance(looking->scene, path, looking->draw, chance).radiance;
     const auto without = [](double shown, double weight) { return weight > 0 ? shown / weight : 0; };
     return scene::Color{without(c.r, copy.weight.r), without(c.g, copy.weight.g), without(c.b, copy.weight.b)};
   };

@@ -398,14 +398,17 @@ LightOptions baked_light_options(const scene::Scene& scene) {
   return options;
 }
 
-bool has_mirror_or_glass(const place::PlacedRoom& room) {
-  return std::any_of(room.looks.begin(), room.looks.end(), [](const place::Look& look) {
-    return look.material.kind == scene::MaterialKind::mirror || look.material.kind == scene::MaterialKind::glass;
-  });
+bool shows_room(const scene::Material& material, bool lit) {
+  using Kind = scene::MaterialKind;
+  return material.kind == Kind::mirror || material.kind == Kind::glass || (lit && material.kind == Kind::metal);
+}
+
+bool shows_room(const place::PlacedRoom& room, bool lit) {
+  return std::any_of(room.looks.begin(), room.looks.end(), [&](const place::Look& look) { return shows_room(look.material, lit); });
 }
 
 bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
-  if (!scene.lamps.empty() || has_mirror_or_glass(room) || scene.integrator == scene::Integrator::path) return true;
+  if (!scene.lamps.empty() || shows_room(room, false) || scene.integrator == scene::Integrator::path) return true;
   return std::any_of(room.parts.begin(), room.parts.end(), [&](const PlacedMesh& part) {
     return std::any_of(part.look.begin(), part.look.end(), [&](std::uint16_t look) {
       return room.looks[look].texture < 0 && varies(room, look, has_solid(part));

@@ -23,8 +23,10 @@ struct BakeOptions {
 /// Light for a bake of that quality: a draft leaves out more of what adds little.
 [[nodiscard]] LightOptions baked_light_options(const scene::Scene& scene);
 
-/// Whether a room has mirror or glass objects.
-[[nodiscard]] bool has_mirror_or_glass(const place::PlacedRoom& room);
+/// Whether one sees the room in a material: in mirror and glass, and, where there is light, in metals.
+[[nodiscard]] bool shows_room(const scene::Material& material, bool lit);
+/// Whether a room has such looks.
+[[nodiscard]] bool shows_room(const place::PlacedRoom& room, bool lit);
 
 /// Whether the plain colours of `make_atlas` do not suffice: there are lamps, mirror or glass objects, or solid patterns (which a field
 /// without lamps shows unlit).

@@ -13,6 +13,7 @@
 #include "compiler/light/block_texels.h"
 #include "compiler/light/eye_image.h"
 #include "compiler/light/highlight_pack.h"
+#include "compiler/light/shiny_parts.h"
 #include "compiler/light/way.h"
 #include "compiler/place/texel.h"
 
@@ -27,17 +28,9 @@ using trace::Direction;
 
 constexpr int kMaxLevel = 10;        // of a block: 1025 texels a side
 constexpr double kContrast = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
-constexpr double kSmallestShiny = 3;    // pixels: highlights of smaller things are left out
-constexpr double kSmallestGlass = 0.5;  // but glass and mirrors are nothing without what is seen in them
+constexpr double kGraze = 0.02;      // cosine: nothing is seen more from the side
 constexpr std::size_t kBatch = 16;   // copies between two looks at the bound
 
-bool shines(const scene::Material& material) {
-  return material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
-}
-
-bool mirrors_or_refracts(const scene::Material& material) {
-  return material.kind == scene::MaterialKind::mirror || material.kind == scene::MaterialKind::glass;
-}
 
 struct Finished {
   std::size_t block = 0;
@@ -74,7 +67,7 @@ class PartShine {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       stop_if_cancelled(job_.progress);
       const place::Look& look = job_.room.looks[mesh_.look[blocks_[i].first]];
-      whole_ = job_.options.seen_in && mirrors_or_refracts(look.material);
+      whole_ = job_.options.seen_in && shows_room(look.material, job_.field.lit);
       if (!whole_ && !shines(look.material)) continue;
       holes_ = place::has_holes(look);
       if (auto finished = bake_block(i, look)) done.push_back(std::move(*finished));
@@ -92,11 +85,21 @@ class PartShine {
     }
   };
 
-  Color shine(const LightPoint& point, const Color& albedo, const scene::Material& material) {
+  Color shine(const LightPoint& point, const Color& albedo, const scene::Material& material, const Turn& turn = {}) {
     const Way sight = way_to(job_.eye, point.at);
     if (!sight.exists) return {};
-    if (whole_) return job_.options.seen_in(point.at, sight.start, job_.copy, job_.beside);
+    // What is rough is seen by ways of a lattice; where they show, `soften` takes all of it.
+    const Turn first{
+        0, material.kind == scene::MaterialKind::metal ? std::max(1, job_.options.rays_per_texel * job_.options.rays_per_texel) : 1};
+    if (whole_)
+      return job_.options.seen_in(point.at, turned_out(point, sight.start), job_.copy, job_.beside, turn.of > 1 ? turn : first);
     return job_.field.exposure * highlight(job_.field, point, sight.start, material, albedo);
+  }
+  /// Where a block turns away from the eye there is nothing to be seen; what is asked there shall continue what is seen at the outline.
+  [[nodiscard]] Direction turned_out(const LightPoint& point, Direction to_eye) const {
+    for (const Direction& n : {point.normal, point.flat})
+      if (const double facing = trace::inner(job_.eye.space, to_eye, n); facing < kGraze) to_eye = to_eye + (kGraze - facing) * n;
+    return (1 / std::sqrt(trace::inner(job_.eye.space, to_eye, to_eye))) * to_eye;
   }
   /// Of a colour in the copy's weight, as the picture encodes it.
   [[nodiscard]] std::array<double, 3> seen(const Color& c) const {
@@ -119,7 +122,7 @@ class PartShine {
     const std::size_t t = far_u && far_v ? static_cast<std::size_t>(block.second) : block.first;
     const int k = far_u && far_v ? block.second_turn[0] : block.turn[static_cast<std::size_t>(far_u ? 1 : far_v ? 2 : 0)];
     const std::uint32_t v = normals_.corners[t][static_cast<std::size_t>(k)];
-    const bool own = look.material.kind == scene::MaterialKind::metal;
+    const bool own = !whole_ && look.material.kind == scene::MaterialKind::metal;
     const int number = mesh_.look[t];
     if (known_[v] == number && !own) return at_vertex_[v];
     const Color albedo = own ? albedo_at(block, far_u, far_v) : Color{1, 1, 1};
@@ -240,7 +243,7 @@ class PartShine {
             u = std::max(0.0, u - out), v = std::max(0.0, v - out);
           }
           const InTriangle at = in_triangle(block, u, v);
-          sum = sum + shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), {1, 1, 1}, look.material);
+          sum = sum + shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), {1, 1, 1}, look.material, {k, side * side});
         }
         soft[grid.index(i, j)] = (1.0 / (side * side)) * sum;
       }
@@ -344,50 +347,6 @@ class PartShine {
   std::vector<Color> at_vertex_;
 };
 
-/// A ball around a part: its nearest and farthest point tell how large it is in the picture.
-struct Ball {
-  Position centre;
-  double radius = 0;
-};
-
-Ball ball_of(Space space, const PlacedMesh& part) {
-  geometry::Ambient sum{0, 0, 0};
-  double low = 1e300, high = -1e300;
-  for (std::size_t i = 0; i < part.floor.size(); ++i)
-    sum = sum + part.floor[i], low = std::min(low, part.z[i]), high = std::max(high, part.z[i]);
-  Ball ball{{geometry::normalised_point(space, sum), (low + high) / 2}, 0};
-  for (std::size_t i = 0; i < part.floor.size(); ++i)
-    ball.radius = std::max(ball.radius, std::hypot(geometry::distance(space, ball.centre.floor, part.floor[i]), part.z[i] - ball.centre.z));
-  return ball;
-}
-
-/// A part with highlights, and which models have it (empty: all).
-struct ShinyPart {
-  std::size_t part = 0;
-  Ball ball;
-  double smallest_px = kSmallestShiny;
-  PartNormals own;  ///< of parts that the field does not know
-  std::vector<bool> in_model;
-};
-
-std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightField& field, const DrawnParts& drawn, bool seen_in) {
-  const auto own_light = [&](const scene::Material& m) { return shines(m) || (seen_in && mirrors_or_refracts(m)); };
-  std::vector<ShinyPart> parts;
-  const std::size_t count = drawn.models.empty() ? std::min(room.parts.size(), field.normals.size()) : room.parts.size();
-  for (std::size_t p = 0; p < count; ++p) {
-    const PlacedMesh& mesh = room.parts[p];
-    if (std::none_of(mesh.look.begin(), mesh.look.end(), [&](std::uint16_t look) { return own_light(room.looks[look].material); }))
-      continue;
-    ShinyPart part{p, ball_of(room.room.space, mesh), kSmallestShiny, {}, {}};
-    const auto glassy = [&](std::uint16_t look) { return seen_in && mirrors_or_refracts(room.looks[look].material); };
-    if (std::any_of(mesh.look.begin(), mesh.look.end(), glassy)) part.smallest_px = kSmallestGlass;
-    for (const auto& model : drawn.models) part.in_model.push_back(std::find(model.begin(), model.end(), p) != model.end());
-    if (p >= field.normals.size()) part.own = part_normals(room, mesh);
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
 /// A finished part of one copy on its way into the atlas.
 struct Shining {
   std::size_t copy = 0, part = 0;
@@ -428,12 +387,6 @@ HighlightOptions highlight_options(const scene::BakeSpec& spec) {
   if (spec.quality == scene::BakeQuality::draft) options.fine_px = 1.6, options.rays_per_texel = 1, options.tolerance = 3;
   if (spec.quality == scene::BakeQuality::fine) options.fine_px = 0.4, options.tolerance = 0.5;
   return options;
-}
-
-bool needs_highlights(const place::PlacedRoom& room, const LightField& field) {
-  if (has_mirror_or_glass(room)) return true;
-  if (!field.lit || field.images.empty()) return false;
-  return std::any_of(room.looks.begin(), room.looks.end(), [](const place::Look& look) { return shines(look.material); });
 }
 
 Highlights bake_highlights(const place::PlacedRoom& room, const LightField& field, const std::vector<cover::Copy>& copies,

@@ -9,11 +9,12 @@
 
 namespace orbc::light {
 
-/// What the eye sees in a mirror or glass object: at a point of the room near its surface, in a copy; `to_eye` is the unit direction there
-/// in which the eye lies; `beside`: how far the point may lie beside that surface (coarser levels).
+/// What the eye sees in a mirror, glass or metal object: at a point of the room near its surface, in a copy; `to_eye` is the unit direction
+/// there in which the eye lies; `beside`: how far the point may lie beside that surface (coarser levels); `turn`: of several points that
+/// are one texel.
 /// Makes: colour × exposure as the copy's texture shows it, so without the copy's weight. Thread-safe.
-using SeenIn =
-    std::function<scene::Color(const geometry::Position& at, const trace::Direction& to_eye, const cover::Copy& copy, double beside)>;
+using SeenIn = std::function<scene::Color(const geometry::Position& at, const trace::Direction& to_eye, const cover::Copy& copy,
+                                          double beside, const Turn& turn)>;
 
 struct HighlightOptions {
   SeenIn seen_in;                         ///< none: mirror and glass objects keep their plain colours

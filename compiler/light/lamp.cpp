@@ -1,6 +1,6 @@
 // Samples: a Kronecker sequence (golden ratio, and in two dimensions the plastic number: Roberts, The unreasonable effectiveness of
-// quasirandom sequences, 2018), whose every beginning is well spread; each with its mirror image in the lamp's middle, so that their mean is
-// just there; spheres by Archimedes' map from the cylinder.
+// quasirandom sequences, 2018), whose every beginning is well spread; each with its mirror image in the middle of the lamp, so that their
+// mean is just there; spheres by Archimedes' map from the cylinder.
 #include "compiler/light/lamp.h"
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ Vector3 offset(const scene::Lamp& lamp, const Mount& mount, int i) {
     return ((i % 2 ? 0.5 : -0.5) * lamp.radius) * mount.across + ((i / 2 ? 0.5 : -0.5) * lamp.radius) * mount.other;
   if (lamp.kind == LampKind::disk)
     return (lamp.radius * std::sqrt(v) * std::cos(turn)) * mount.across + (lamp.radius * std::sqrt(v) * std::sin(turn)) * mount.other;
-  // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on the sphere of radius √(3/4) of it.
+  // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on its sphere of radius √(3/4).
   if (i < kDesign) {  // a tetrahedron
     const double side = lamp.radius / 2, x = i == 0 || i == 1 ? side : -side, y = i == 0 || i == 2 ? side : -side;
     return {x, y, i == 0 || i == 3 ? side : -side};

@@ -77,7 +77,8 @@ struct Turn {
 [[nodiscard]] LightPoint light_point(const LightField& field, const place::PlacedRoom& room, const trace::SurfacePoint& point,
                                      const trace::Hit& hit);
 
-/// The light of glossy and metal surfaces that a matte one does not have: the lamps' reflections in it, towards the eye.
+/// The light of glossy and metal surfaces that a matte one does not have: the lamps' reflections in it, towards the eye. What else metals
+/// mirror is render's: the room in their facets (lobe.h).
 /// Formula: GGX (Walter et al., Microfacet Models for Refraction, 2007) with Smith's shadowing and Schlick's Fresnel; α = roughness². Of a
 /// lamp with an extent all samples count.
 /// Error:   highlights that cannot reach 1/3000 of white are left out.

@@ -1,10 +1,11 @@
 // Mirror objects: reflection in the product metric. Glass: both branches are followed while their share counts, so that no random number
-// is needed for what the eye sees through it.
+// is needed for what the eye sees through it. Metals: facets, on ways of a lattice.
 #include "compiler/render/shade.h"
 
 #include <algorithm>
 
 #include "compiler/light/leg.h"
+#include "compiler/light/lobe.h"
 #include "compiler/render/path.h"
 
 namespace orbc::render {
@@ -15,26 +16,43 @@ using trace::Direction;
 
 constexpr double kLeastShare = 1.0 / 512;  // a branch of glass below it cannot change an 8-bit picture
 
+constexpr int kMostMetals = 3;             // that mirror each other
+constexpr double kLeastMetal = 1.0 / 48;   // share below which a metal is not looked into
+constexpr double kGlances = 1500;          // per α: gold's lobe (α = 0.02) is seen by 32 ways
+
 Color at_most(const Color& c, double most) { return {std::min(c.r, most), std::min(c.g, most), std::min(c.b, most)}; }
+Color least(const Color& a, const Color& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
+
+/// How many ways to look for what a metal mirrors: the rougher, the more, until steps between them no longer show; fewer where it is faint.
+int glances_of(const scene::Material& material, double counts, int most) {
+  const double wanted = kGlances * light::facet_width(material) * std::min(1.0, 2 * counts);
+  int count = 1;
+  while (1.5 * count < wanted && count < most) count *= 2;
+  return count;
+}
 
 struct Walker {
   const trace::TraceScene& scene;
   const DrawOptions& options;
   Chance chance;
   Seen& seen;
+  double part = 1;                  // of what is added now: one of so many ways
+  int metals = 0;                   // met so far
 
   void add(const Color& radiance) {
-    seen.radiance = seen.radiance + radiance;
-    seen.most = seen.most + radiance;
+    seen.radiance = seen.radiance + part * radiance;
+    seen.most = seen.most + part * radiance;
   }
 
+  // In: `bare`: the room without the bodies of its lamps, which facets have mirrored already.
   void go_on(const trace::Path& path, const trace::SurfacePoint& at, const Direction& direction, const Color& weight, double share,
-             int depth) {
+             int depth, bool bare = false) {
     trace::FollowOptions follow = follow_options(options);
     follow.weight = weight;
     follow.bounces = path.bounces;
     follow.length = path.length;
-    light(trace::follow(scene, trace::leave(scene, at, direction), follow), share, depth + 1);
+    const trace::TraceScene& where = bare ? options.light->scene : scene;
+    light(trace::follow(where, trace::leave(where, at, direction), follow), share, depth + 1, where);
   }
 
   // The surface that the triangles stand for: seen in facets, mirror and glass would be mosaics. Not where it turns away from the ray,
@@ -55,26 +73,62 @@ struct Walker {
     const Color weight = share * path.weight;
     if (material.kind == scene::MaterialKind::emissive) return add(weight * light::radiance_out(field, material, color, {}));
     const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
-    const bool shines = material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
     const double white = light::white_of(field);
     const auto known = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
     Color out = known ? white * *known : light::radiance_out(field, material, color, light::irradiance(field, at, chance.turn));
-    if (shines) out = out + light::highlight(field, at, -point.arriving, material, color, chance.turn);
+    if (material.kind == scene::MaterialKind::glossy)
+      out = out + light::highlight(field, at, -point.arriving, material, color, chance.turn);
     out = at_most(out, white);
     if (known || field.options.passes == 0) return add(weight * out);
     // What a guess lifts beyond white must not be cut off guess by guess: their mean would become too dark.
     const Color more = color * passed_on(*scene.room, field, at, chance, options.paths);
     const Color kept{out.r < white ? more.r : 0, out.g < white ? more.g : 0, out.b < white ? more.b : 0};
-    seen.radiance = seen.radiance + weight * (out + kept);
-    seen.passed_on = seen.passed_on + weight * kept;
-    seen.most = seen.most + white * weight;
+    seen.radiance = seen.radiance + part * weight * (out + kept);
+    seen.passed_on = seen.passed_on + part * weight * kept;
+    seen.most = seen.most + part * white * weight;
   }
 
-  void light(const trace::Path& path, double share, int depth) {
+  // Metal seen in metal is, where it is faint or seen in a third, its plain colour; its inside is met by rounding alone.
+  [[nodiscard]] bool mirrors(const trace::SurfacePoint& point, double share, int depth) const {
+    return metals < kMostMetals && part * share >= kLeastMetal && (point.outside || depth == 0);
+  }
+
+  // The room in a metal's facets, each way of this sample a sample by itself; and the lamps, by their highlights.
+  void metal(const trace::Path& path, trace::SurfacePoint point, const scene::Material& material, const Color& color, double share,
+             int depth) {
+    const light::LightField& field = *options.light;
+    const Color face_on = light::face_on(material, color), before = seen.radiance, most_before = seen.most;
+    const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
+    const Direction flat = point.normal;
+    smooth(point, path.hit);
+    const int all = glances_of(material, part * share * largest(path.weight), std::max(1, options.glances >> (3 * std::min(metals, 3))));
+    const light::Turn turn = chance.turn;
+    const int count = std::max(1, all / turn.of);
+    const auto pair = static_cast<std::size_t>(2 * std::min(metals, 2));
+    part /= count, ++metals;
+    for (int i = 0; i < count; ++i) {
+      chance.turn = {turn.rank * count + i, turn.of * count};
+      const auto u = light::lattice_of_six(chance.turn.rank, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
+      const bool sharp = all == 1 && turn.of == 1;
+      const light::Glance way = light::glance(scene.prism.space, point, light::facet_width(material),
+                                              sharp ? std::array<double, 2>{0, 0} : std::array<double, 2>{u[pair], u[pair + 1]});
+      if (way.weight <= 0 || trace::inner(scene.prism.space, way.direction, flat) <= 0) continue;
+      go_on(path, point, way.direction, path.weight * light::reflectance(face_on, way.cosine), share * way.weight, depth, true);
+    }
+    part *= count, --metals;
+    chance.turn = turn;
+    const Color weight = part * share * path.weight, lamps = weight * light::highlight(field, at, -point.arriving, material, color, turn);
+    const Color white = light::white_of(field) * weight;
+    seen.radiance = before + least(seen.radiance + lamps + -1.0 * before, white);
+    seen.most = most_before + least(seen.most + lamps + -1.0 * most_before, white);
+  }
+
+  // In: where the path was followed.
+  void light(const trace::Path& path, double share, int depth, const trace::TraceScene& where) {
     add(share * path.glow);
     if (path.cut_off || path.hit.target == trace::Target::nothing)
       return add(share * (options.weighs_background ? path.weight * options.background : options.background));
-    trace::SurfacePoint point = trace::surface_at(scene, path.last, path.hit);
+    trace::SurfacePoint point = trace::surface_at(where, path.last, path.hit);
     if (depth == 0) seen.surface = point, seen.hit = true;
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
     const Color color = light::surface_color(*scene.room, point);
@@ -82,6 +136,8 @@ struct Walker {
     const bool glows = material->kind == scene::MaterialKind::emissive;
     if (glows && !options.light) return add(share * (path.weight * at_most(material->emission * color, options.white)));
     const bool mirror = material->kind == scene::MaterialKind::mirror, glass = material->kind == scene::MaterialKind::glass;
+    if (options.light && material->kind == scene::MaterialKind::metal && depth < options.max_depth && mirrors(point, share, depth))
+      return metal(path, point, *material, color, share, depth);
     if (!(mirror || glass) || depth >= options.max_depth) {
       if (options.light) return lit(path, point, *material, color, share);
       return add(share * (path.weight * at_most(color, options.white)));
@@ -110,7 +166,7 @@ trace::FollowOptions follow_options(const DrawOptions& options) {
 Seen radiance(const trace::TraceScene& scene, trace::Path path, const DrawOptions& options, const Chance& chance) {
   Seen seen;
   seen.path = std::move(path);
-  Walker{scene, options, chance, seen}.light(seen.path, 1, 0);
+  Walker{scene, options, chance, seen}.light(seen.path, 1, 0, scene);
   return seen;
 }
 

@@ -34,15 +34,16 @@ driver::Opened opened(const std::string& orbifold, const std::string& material) 
 
 }  // namespace
 
-TEST_CASE("what is seen in chrome and glass of any copy is what the eye's own ray brings back", "[driver]") {
+TEST_CASE("what is seen in mirrors, metals and glass of any copy is what the eye's own ray brings back", "[driver]") {
   for (const std::string orbifold : {"*222", "*2222", "*22222"}) {
-    for (const std::string material : {"mirror", "glass"}) {
+    for (const std::string material : {"mirror", "glass", "silver", "gold"}) {
       CAPTURE(orbifold, material);
       const driver::Opened scene = opened(orbifold, material);
       const auto see = driver::see_in(scene, nullptr, serial_executor());
       const auto traced = trace::prepare(*scene.room);
       const auto light = light::prepare_light(scene.scene, *scene.room, light::light_options(scene.scene)).value();
-      const render::DrawOptions draw = driver::draw_options(scene, light, serial_executor());
+      render::DrawOptions draw = driver::draw_options(scene, light, serial_executor());
+      draw.glances = 16;  // as many as exports of normal quality look for
       const auto copies = cover::unfold(*scene.room, scene.eye, scene.scene.cover).value();
       int met = 0, same = 0;
       for (int y = 0; y < scene.eye.height; ++y) {
@@ -57,7 +58,7 @@ TEST_CASE("what is seen in chrome and glass of any copy is what the eye's own ra
             const trace::Direction to_eye = light::direction_to_eye(copy, scene.eye, seen.surface.at);
             const trace::Direction off = to_eye + seen.surface.arriving;
             if (trace::inner(scene.room->room.space, off, off) > 1e-12) continue;
-            const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy, 0);
+            const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy, 0, {});
             ++met;
             same += std::fabs(c.r - seen.radiance.r) < 1e-3 && std::fabs(c.g - seen.radiance.g) < 1e-3 &&
                     std::fabs(c.b - seen.radiance.b) < 1e-3;

@@ -127,6 +127,36 @@ TEST_CASE("every matte surface in an emissive room takes on ρ times its light",
   }
 }
 
+TEST_CASE("metal shows what it keeps of a furnace: polished all of its colour, white at grazing angles", "[render]") {
+  for (const char* notation : kRooms)
+    for (const double roughness : {0.05, 0.2, 0.6}) {
+      scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, false);
+      scene::Material glow;
+      glow.kind = scene::MaterialKind::emissive;
+      glow.color = {0.4, 0.4, 0.4};
+      s.room.floor.material = s.room.ceiling.material = glow;
+      for (scene::Wall& wall : s.room.walls) wall.material = glow;
+      s.objects[0].material->kind = scene::MaterialKind::metal;
+      s.objects[0].material->roughness = roughness;
+      s.objects[0].material->color = {1, 0.5, 0.25};
+      const auto l = lit(s, 8);
+      const place::Eye eye = eye_in(l->room, 32, 24);
+      render::Film film = render::draw(l->traced, eye, drawing(*l, 1), serial_executor());
+      int ball = 0;
+      for (std::size_t i = 0; i < film.color.size(); ++i) {
+        const auto part = static_cast<std::size_t>(std::max(film.object[i], 0));
+        if (film.object[i] < 0 || l->room.parts[part].kind != place::PartKind::object) continue;
+        ++ball;
+        INFO(notation << ", roughness " << roughness);
+        CHECK(film.color[i].r <= 0.4 + 1e-6);
+        CHECK(film.color[i].r > (roughness < 0.1 ? 0.39 : roughness < 0.3 ? 0.32 : 0.2));
+        CHECK(film.color[i].g >= 0.5 * film.color[i].r - 1e-6);   // more at grazing angles, where all metals are white
+        CHECK(film.color[i].b < film.color[i].g);
+      }
+      CHECK(ball > 3);
+    }
+}
+
 TEST_CASE("mirrors that keep everything change nothing in a furnace; others darken it as they must", "[render]") {
   for (const char* notation : kRooms) {
     scene::Scene s = bare(notation, {0.6, 0.6, 0.6}, true);

@@ -1,0 +1,90 @@
+#include "compiler/light/lobe.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/light/frame.h"
+#include "compiler/light/random.h"
+
+using namespace orbc;
+using geometry::Space;
+using geometry::Vector3;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A point of a surface whose normal leans, met by a ray with the cosine `facing` to it.
+trace::SurfacePoint met(Space space, double facing) {
+  trace::SurfacePoint point;
+  point.at = {geometry::point_along(space, {}, geometry::Tangent(0, 0.6, 0.8), 0.4), 0.3};
+  const light::Frame frame = light::frame_at(space, point.at.floor);
+  const Vector3 n = geometry::normalised({0.3, -0.5, 0.6}), across = geometry::normalised(cross(n, {0, 0, 1}));
+  point.normal = light::global(frame, n);
+  point.arriving = light::global(frame, -1.0 * (facing * n + std::sqrt(1 - facing * facing) * across));
+  return point;
+}
+
+/// Something to see: brighter towards one side.
+double sky(const Vector3& d) { return 1 + 0.8 * d.x - 0.3 * d.z; }
+
+}  // namespace
+
+TEST_CASE("what facets mirror is the integral of the microfacet model over all directions", "[light]") {
+  for (const Space space : {Space::spherical, Space::euclidean, Space::hyperbolic})
+    for (const double roughness : {0.3, 0.6, 1.0})
+      for (const double facing : {0.9, 0.4}) {
+        const trace::SurfacePoint point = met(space, facing);
+        const light::Frame frame = light::frame_at(space, point.at.floor);
+        const double alpha = roughness * roughness, a2 = alpha * alpha;
+        const scene::Color face_on{0.6, 0.6, 0.6};
+        double by_ways = 0;
+        constexpr int kWays = 20000;
+        for (int k = 0; k < kWays; ++k) {
+          const auto u = light::lattice(k);
+          const light::Glance way = light::glance(space, point, alpha, {u[0], u[1]});
+          if (way.weight <= 0) continue;
+          REQUIRE(trace::inner(space, way.direction, way.direction) == Approx(1));
+          REQUIRE(trace::inner(space, way.direction, point.normal) > 0);
+          by_ways += way.weight * light::reflectance(face_on, way.cosine).r * sky(light::local(space, frame, way.direction)) / kWays;
+        }
+        // D·F·G/(4·cos·cos), times cos, over the half sphere
+        const Vector3 n = light::local(space, frame, point.normal), v = -1.0 * light::local(space, frame, point.arriving);
+        const Vector3 e = geometry::normalised(cross(n, {1, 0, 0})), f = cross(n, e);
+        double whole = 0;
+        constexpr int kUp = 600, kRound = 600;
+        for (int i = 0; i < kUp; ++i)
+          for (int j = 0; j < kRound; ++j) {
+            const double c = (i + 0.5) / kUp, s = std::sqrt(1 - c * c), phi = 2 * kPi * (j + 0.5) / kRound;
+            const Vector3 l = c * n + (s * std::cos(phi)) * e + (s * std::sin(phi)) * f, half = geometry::normalised(l + v);
+            const double brdf = light::facet_density(dot(half, n), a2) * light::facets_seen(c, a2) * light::facets_seen(dot(v, n), a2) *
+                                light::reflectance(face_on, dot(l, half)).r / (4 * c * dot(v, n));
+            whole += brdf * c * sky(l) * 2 * kPi / (kUp * kRound);
+          }
+        INFO("space " << geometry::curvature(space) << ", roughness " << roughness << ", facing " << facing);
+        CHECK(by_ways == Approx(whole).epsilon(0.005));
+      }
+}
+
+TEST_CASE("a smooth metal mirrors as a mirror does", "[light]") {
+  const trace::SurfacePoint point = met(Space::hyperbolic, 0.5);
+  const trace::Direction expected = point.arriving + (2 * 0.5) * point.normal;
+  for (int k = 0; k < 50; ++k) {
+    const auto u = light::lattice(k);
+    const light::Glance way = light::glance(Space::hyperbolic, point, 0.0005, {u[0], u[1]});
+    CHECK(way.weight == Approx(1).margin(1e-4));
+    CHECK(way.cosine == Approx(0.5).margin(0.02));
+    const trace::Direction off = way.direction + -1.0 * expected;
+    CHECK(std::sqrt(trace::inner(Space::hyperbolic, off, off)) < 0.02);
+  }
+}
+
+TEST_CASE("metals mirror their colour face on, and white at grazing angles; gloss mirrors a twenty-fifth", "[light]") {
+  scene::Material metal, glossy;
+  metal.kind = scene::MaterialKind::metal, glossy.kind = scene::MaterialKind::glossy;
+  const scene::Color gold{1, 0.78, 0.34};
+  CHECK(light::reflectance(light::face_on(metal, gold), 1) == gold);
+  CHECK(light::reflectance(light::face_on(metal, gold), 0).b == Approx(1));
+  CHECK(light::face_on(glossy, gold).r == Approx(0.04));
+}
