@@ -8,7 +8,7 @@
 namespace orbc::driver {
 
 struct PaintOptions {
-  /// Of glossy and metal surfaces, and what is seen in mirror and glass objects, for this eye; false: diffuse light alone
+  /// Of glossy surfaces, and what is seen in mirror, glass and metal objects, for this eye; false: diffuse light alone
   bool highlights = true;
   int max_side = 16384;    ///< pixels of the atlas
   bool deep = false;       ///< 16 bits a channel as well

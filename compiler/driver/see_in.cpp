@@ -31,7 +31,10 @@ orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry
   const orbc::trace::Hit hit = closest(scene, back);
   double step = std::max(kBack * scene.room->height, 2 * beside);
   if (hit.target != orbc::trace::Target::triangle) step = std::min(step, hit.t / 2);   // never out of the room
-  else if (!surface_at(scene, back, hit).outside) step = std::max(step, hit.t + kBack * scene.room->height);  // out of the body first
+  else if (!surface_at(scene, back, hit).outside) {  // out of the body first, but not into what stands there
+    back.t_min = hit.t + orbc::trace::kLeave;
+    step = std::max(step, hit.t + std::min(kBack * scene.room->height, (closest(scene, back).t - hit.t) / 2));
+  }
   return ray_from(space, position_at(space, back, step), -direction_at(space, back, step));
 }
 
@@ -42,7 +45,7 @@ light::SeenIn see_in(const Opened& opened, const light::Baked* baked, const Exec
   const auto looking = std::make_shared<Looking>(
       Looking{ready.scene, ready.light, draw_options(opened, ready.light, executor), std::nullopt, opened.scene.exposure});
   if (opened.scene.bake.quality != scene::BakeQuality::fine)
-    looking->draw.glances = opened.scene.bake.quality == scene::BakeQuality::draft ? 4 : 16;
+    looking->draw.glances = opened.scene.bake.quality == scene::BakeQuality::draft ? 32 : 128;
   if (baked && ready.light.lit) looking->draw.baked = &looking->baked.emplace(*opened.room, *baked);
   return [looking](const geometry::Position& at, const orbc::trace::Direction& to_eye, const cover::Copy& copy, double beside,
                    const light::Turn& turn) {

@@ -5,8 +5,8 @@
 
 namespace orbc::driver {
 
-/// What the tracer sees in mirror and glass objects, asked point by point: so exports show them truly to their eye, though their renderer's
-/// rays are straight.
+/// What the tracer sees in mirror, glass and metal objects, asked point by point: so exports show them truly to their eye, though their
+/// renderer's rays are straight.
 /// In:    an opened scene, and what was baked of it, which outlive the answer. Without the latter all that is seen is lit point by point,
 ///        with `integrator: path` by one guess each.
 /// Error: that of the tracer, and of the texels of what was baked.

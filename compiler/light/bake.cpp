@@ -394,7 +394,8 @@ BakeOptions bake_options(const scene::BakeSpec& spec) {
 
 LightOptions baked_light_options(const scene::Scene& scene) {
   LightOptions options = light_options(scene);
-  if (scene.bake.quality == scene::BakeQuality::draft) options.cut = 1.0 / 128, options.step = 0.05;
+  if (scene.bake.quality == scene::BakeQuality::draft) options.cut = 1.0 / 128, options.step = 0.025;
+  if (scene.bake.quality == scene::BakeQuality::fine) options.step = 0.003;
   return options;
 }
 

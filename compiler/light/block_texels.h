@@ -8,7 +8,7 @@
 
 namespace orbc::light {
 
-/// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure; none of what is all mirror or glass.
+/// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure; none of what is all mirror, glass or metal.
 class BlockTexels {
  public:
   BlockTexels(const mesh::Image& image, const Box& box, bool none) : image_(image), box_(box), none_(none) {}

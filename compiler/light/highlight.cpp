@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "compiler/light/falloff.h"
 #include "compiler/light/lobe.h"
@@ -19,7 +20,8 @@ using scene::Color;
 using trace::Direction;
 
 constexpr double kFaint = 1.0 / 3000;  // of white: highlights that cannot reach it are left out
-constexpr double kWeak = 1.0 / 400;    // of white: what cannot be brighter is asked once, from the middle of the lamp
+constexpr double kStep = 1.0 / 400;    // of white: what one shadow ray may decide
+constexpr int kMost = 32;              // samples of a lamp
 constexpr int kProbes = 4;             // samples that decide whether the lamp is seen whole
 
 /// A surface point under an eye: everything but the lamp.
@@ -58,59 +60,79 @@ struct Lobe {
   }
 };
 
+/// What a point of a lamp would add, were nothing in between.
+struct Part {
+  Way way;
+  std::size_t sample = 0;
+  Color light;
+};
+
+/// How much of it arrives, by as many shadow rays as it is worth: steps of its shadow shall not show.
+Color arriving_of(const LightField& field, const LampImage& image, const Lobe& lobe, const std::vector<Part>& parts, double power,
+                  int count) {
+  const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
+  Color total;
+  for (const Part& part : parts) total = total + part.light;
+  const int all = static_cast<int>(parts.size()),
+            rays = std::clamp(static_cast<int>(std::ceil(power * largest(total) / count / kStep)), 1, all);
+  Color sum, seen;
+  double asked_light = 0;
+  bool same = true;
+  for (int k = 0; k < rays; ++k) {
+    const Part& part = parts[static_cast<std::size_t>((2 * k + 1) * all / (2 * rays))];
+    if (k < kProbes || !same) {
+      const Color weight = arriving(field, image, lamp, part.sample, lobe.point, part.way);
+      same = same && (k == 0 || weight == seen);
+      seen = weight;
+    }
+    sum = sum + largest(part.light) * seen;
+    asked_light += largest(part.light);
+  }
+  return (1 / asked_light) * (total * sum);
+}
+
 /// What the facets reflect of one image of a lamp.
-Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe, const Turn& asked_by) {
+Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe) {
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const double power = largest(lamp.power) * field.exposure;
   const Way middle = way_to(lobe.space, lobe.point.origin, image.samples[0], image.sheet);
-  const auto all = static_cast<int>(image.samples.size()) - 1;
-  const int count = std::max(1, all);
-  int asks = std::max(1, count / asked_by.of);
   const double turn = middle.length > 1e-9 ? lamp.extent / middle.length : 4, patch = turn / 2;
-  const double wide = all > 0 ? std::min(0.25, patch * patch * std::numbers::pi / count) : 0;
-  bool whole = all == 0;  // its middle stands for all of it
+  int count = std::clamp(static_cast<int>(image.samples.size()) - 1, 1, kMost);
+  const auto wide = [&](int patches) { return lamp.extent > 0 ? std::min(0.25, patch * patch * std::numbers::pi / patches) : 0; };
   if (middle.exists && turn < 0.5) {
     const double light = power * image.weight * lamp.gain *
                          falloff(lamp.falloff, lobe.space, std::max(middle.length - lamp.extent, lamp.radius), middle.arc, lamp.radius);
     if (light < field.options.cut) return {};
-    const double most = light * lobe.bound(middle.start, 1.1 * turn, wide);
-    if (most < kFaint * std::min(4.0, std::sqrt(asked_by.of))) return {};
-    whole = all == 0 || most < kWeak;
-    if (whole) asks = 1;
+    const double most = light * lobe.bound(middle.start, 1.1 * turn, wide(count));
+    if (most < kFaint) return {};
+    if (most < kStep) count = 1;  // the lamp's middle stands for all of it
   }
-  Color sum, seen;
-  int asked = 0;
-  bool same = true;
-  for (int i = 0; i < asks; ++i) {
-    const auto sample = static_cast<std::size_t>(whole ? 0 : (asked_by.rank * asks + i) % all + 1);
+  std::vector<Part> parts;
+  parts.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const auto sample = static_cast<std::size_t>(count > 1 ? i + 1 : 0);
     const Way way = way_to(lobe.space, lobe.point.origin, image.samples[sample], image.sheet);
     if (!way.exists) continue;
-    const Color share = lobe.shine(way.start, wide);
+    const Color share = lobe.shine(way.start, wide(count));
     if (largest(share) <= 0) continue;
     const Color light = unhindered(field, image, lamp, sample, lobe.point, way) * share;
-    if (power * largest(light) < kFaint / 2) continue;
-    if (asked < kProbes || !same) {
-      const Color weight = arriving(field, image, lamp, sample, lobe.point, way);
-      same = same && (asked == 0 || weight == seen);
-      seen = weight;
-      ++asked;
-    }
-    sum = sum + light * seen;
+    if (power * largest(light) >= kFaint / 2) parts.push_back({way, sample, light});
   }
-  return (1.0 / asks) * (lamp.power * sum);
+  if (parts.empty()) return {};
+  return (1.0 / count) * (lamp.power * arriving_of(field, image, lobe, parts, power, count));
 }
 
 }  // namespace
 
 Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material,
-                const Color& albedo, const Turn& turn) {
+                const Color& albedo) {
   const Space space = field.scene.prism.space;
   const double alpha = facet_width(material);
   const Lobe lobe{space, point, to_eye, face_on(material, albedo), alpha * alpha, trace::inner(space, point.normal, to_eye)};
   if (lobe.nv <= 0) return {};
   Color sum;
-  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + gathered(field, field.images[i], lobe, turn);
-  return sum;
+  for (const std::uint32_t i : images_at(field, point.at)) sum = sum + gathered(field, field.images[i], lobe);
+  return material.kind == scene::MaterialKind::metal ? by_several_facets(lobe.face_on, lobe.nv, alpha) * sum : sum;
 }
 
 }  // namespace orbc::light

@@ -13,6 +13,7 @@
 #include "compiler/light/block_texels.h"
 #include "compiler/light/eye_image.h"
 #include "compiler/light/highlight_pack.h"
+#include "compiler/light/lobe.h"
 #include "compiler/light/shiny_parts.h"
 #include "compiler/light/way.h"
 #include "compiler/place/texel.h"
@@ -29,8 +30,8 @@ using trace::Direction;
 constexpr int kMaxLevel = 10;        // of a block: 1025 texels a side
 constexpr double kContrast = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
 constexpr double kGraze = 0.02;      // cosine: nothing is seen more from the side
+constexpr double kRough = 0.05;      // α: what metals as rough as that show is seen at single points as by many ways as in means
 constexpr std::size_t kBatch = 16;   // copies between two looks at the bound
-
 
 struct Finished {
   std::size_t block = 0;
@@ -85,15 +86,18 @@ class PartShine {
     }
   };
 
-  Color shine(const LightPoint& point, const Color& albedo, const scene::Material& material, const Turn& turn = {}) {
+  Color shine(const LightPoint& point, const scene::Material& material, const Turn& turn = {}) {
     const Way sight = way_to(job_.eye, point.at);
     if (!sight.exists) return {};
-    // What is rough is seen by ways of a lattice; where they show, `soften` takes all of it.
-    const Turn first{
-        0, material.kind == scene::MaterialKind::metal ? std::max(1, job_.options.rays_per_texel * job_.options.rays_per_texel) : 1};
-    if (whole_)
-      return job_.options.seen_in(point.at, turned_out(point, sight.start), job_.copy, job_.beside, turn.of > 1 ? turn : first);
-    return job_.field.exposure * highlight(job_.field, point, sight.start, material, albedo);
+    if (whole_) return job_.options.seen_in(point.at, turned_out(point, sight.start), job_.copy, job_.beside, turn);
+    return job_.field.exposure * highlight(job_.field, point, sight.start, material, {1, 1, 1});
+  }
+  // A metal's lobe is seen by many ways. What shows detail in it is asked again by `soften`, all ways between its points: so that a part of
+  // them is enough here, the second, in the middle between the sharpest and the widest.
+  [[nodiscard]] Turn at_single_points(const scene::Material& material) const {
+    const int parts = job_.options.rays_per_texel * job_.options.rays_per_texel;
+    if (parts < 2 || material.kind != scene::MaterialKind::metal || facet_width(material) >= kRough) return {};
+    return {1, parts};
   }
   /// Where a block turns away from the eye there is nothing to be seen; what is asked there shall continue what is seen at the outline.
   [[nodiscard]] Direction turned_out(const LightPoint& point, Direction to_eye) const {
@@ -112,23 +116,16 @@ class PartShine {
     return std::max({std::fabs(x[0] - y[0]), std::fabs(x[1] - y[1]), std::fabs(x[2] - y[2])});
   }
 
-  Color albedo_at(const Block& block, double u, double v) const {
-    const InTriangle at = in_triangle(block, u, v);
-    return triangle_albedo(job_.room, mesh_, at.triangle, at.b);
-  }
-
-  // Corners are shared by the blocks that meet there, unless the colour of a metal changes from one to the next.
+  // Corners are shared by the blocks that meet there.
   Color corner(const Block& block, const place::Look& look, int far_u, int far_v) {
     const std::size_t t = far_u && far_v ? static_cast<std::size_t>(block.second) : block.first;
     const int k = far_u && far_v ? block.second_turn[0] : block.turn[static_cast<std::size_t>(far_u ? 1 : far_v ? 2 : 0)];
     const std::uint32_t v = normals_.corners[t][static_cast<std::size_t>(k)];
-    const bool own = !whole_ && look.material.kind == scene::MaterialKind::metal;
     const int number = mesh_.look[t];
-    if (known_[v] == number && !own) return at_vertex_[v];
-    const Color albedo = own ? albedo_at(block, far_u, far_v) : Color{1, 1, 1};
+    if (known_[v] == number) return at_vertex_[v];
     LightPoint point = light_point(job_.room, mesh_, normals_, t, near_corner(static_cast<std::size_t>(k)));
     if (stand_in() && !whole_) point = on_surface(job_.field, point, kOnVertex);
-    at_vertex_[v] = shine(point, albedo, look.material);
+    at_vertex_[v] = shine(point, look.material, at_single_points(look.material));
     known_[v] = number;
     return at_vertex_[v];
   }
@@ -138,10 +135,9 @@ class PartShine {
     if (end_u && end_v) return corner(block, look, i > 0, j > 0);
     const double u = static_cast<double>(i) / (grid.w - 1), v = static_cast<double>(j) / (grid.h - 1);
     const InTriangle at = within_block(block, u, v, kWithin);
-    const Color albedo = look.material.kind == scene::MaterialKind::metal ? albedo_at(block, u, v) : Color{1, 1, 1};
     LightPoint point = light_point(job_.room, mesh_, normals_, at.triangle, at.b);
     if (stand_in() && !whole_) point = on_surface(job_.field, point, std::max(block.length_u, block.length_v) / 2);
-    return shine(point, albedo, look.material);
+    return shine(point, look.material, at_single_points(look.material));
   }
   /// A coarser level: what shines is the part itself (seen_in puts its points there by itself).
   [[nodiscard]] bool stand_in() const { return job_.field.lit && job_.part >= job_.field.normals.size(); }
@@ -243,7 +239,7 @@ class PartShine {
             u = std::max(0.0, u - out), v = std::max(0.0, v - out);
           }
           const InTriangle at = in_triangle(block, u, v);
-          sum = sum + shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), {1, 1, 1}, look.material, {k, side * side});
+          sum = sum + shine(light_point(job_.room, mesh_, normals_, at.triangle, at.b), look.material, {k, side * side});
         }
         soft[grid.index(i, j)] = (1.0 / (side * side)) * sum;
       }
@@ -341,7 +337,7 @@ class PartShine {
   const PlacedMesh& mesh_;
   const PartNormals& normals_;
   const std::vector<Block>& blocks_;
-  bool whole_ = false;          ///< the block's whole light depends on the eye: mirror and glass
+  bool whole_ = false;          ///< the block's whole light depends on the eye: mirror, glass and metal
   bool holes_ = false;
   std::vector<int> known_;      ///< for which look
   std::vector<Color> at_vertex_;

@@ -17,11 +17,11 @@ using SeenIn = std::function<scene::Color(const geometry::Position& at, const tr
                                           double beside, const Turn& turn)>;
 
 struct HighlightOptions {
-  SeenIn seen_in;                         ///< none: mirror and glass objects keep their plain colours
+  SeenIn seen_in;                         ///< none: mirror, glass and metal objects keep their plain colours
   double tolerance = 1;                   ///< in steps of 1/255 of the picture: smaller highlights are left out
   double probe_px = 4;                    ///< pixels between points that are always asked
   double fine_px = 0.8;                   ///< and where highlights change
-  int rays_per_texel = 2;                 ///< a side, where glass or a mirror shows what is finer than a texel
+  int rays_per_texel = 2;                 ///< a side, where glass, a mirror or metal shows what is finer than a texel
   double coarser_beside = 4;              ///< times that, for what lies beside the picture: seen only when the camera is turned
   int max_side = 16384;                   ///< pixels of the atlas
   std::uint64_t max_texels = 40'000'000;  ///< for highlights; the nearest copies come first
@@ -54,10 +54,10 @@ struct Highlights {
   HighlightCounts counts;
 };
 
-/// Whether a room has surfaces whose light depends on where the eye is: mirror and glass, and in a field with lamps glossy ones and metals.
+/// Whether a room has surfaces whose light depends on where the eye is: mirror, glass and metal, and in a field with lamps glossy ones.
 [[nodiscard]] bool needs_highlights(const place::PlacedRoom& room, const LightField& field);
 
-/// Bakes what glossy and metal surfaces send to the given eye, and what it sees in mirror and glass objects, for every copy by itself: as
+/// Bakes what glossy surfaces send to the given eye, and what it sees in mirror, glass and metal objects, for every copy by itself: as
 /// seen from a copy, the eye is its image under that copy's inverse map.
 /// In:    the room and the field that `baked` was made of; copies of the room, and what they are drawn from.
 /// Makes: more rows below the picture of `baked`, in which blocks with a highlight have texels of their own for a copy: as coarse as the

@@ -21,7 +21,7 @@ using geometry::Space;
 using geometry::Vector3;
 using scene::LampKind;
 
-constexpr int kSamples = 32;            // of a lamp with an extent: a penumbra in 32 steps is below what 8 bits show
+constexpr int kSamples = 128;           // of a lamp with an extent; single points ask the first of them, pixels of many samples all
 constexpr double kPointRadius = 0.02;   // points have none; this keeps the focus of S² finite
 constexpr double kDefaultHeight = 0.9;  // of the room's
 

@@ -20,8 +20,9 @@ using geometry::Space;
 using scene::Color;
 using trace::Direction;
 
-constexpr int kProbes = kDesign;      // samples that decide whether there is a penumbra at all
-constexpr double kMostShared = 4;     // steps that one turn of several may be off, for each image
+constexpr int kMostProbes = 16;       // samples that decide whether there is a penumbra at all
+constexpr double kStepsPerProbe = 8;  // of light that may pass between two of them
+constexpr double kMostShared = 8;     // steps that one turn of several may be off, for each image
 constexpr double kSmall = 0.25;       // extent of a lamp over its distance: the third order is 1.5 % of it, and less of the light
 
 /// About how much an image could add at a point; 0 only where it surely adds nothing.
@@ -41,6 +42,9 @@ double at_most(const LightField& field, const LampImage& image, double length, d
   return at_most(field.scene.prism.space, field.lamps[static_cast<std::size_t>(image.lamp)], image.weight, field.exposure, length, arc);
 }
 
+/// The next even number: beyond the design samples come in pairs about the lamp's middle.
+int even(double count) { return 2 * static_cast<int>(std::ceil(std::min(count, 1e6) / 2)); }
+
 /// What one turn asks of an image: `count` of the lamp's first `all` samples from `first` on, going round; for `weight` images.
 struct Ask {
   int all = 1, first = 0, count = 0;
@@ -49,10 +53,11 @@ struct Ask {
 
 /// In: how much the image could add, in steps; a number of its own, so that not all faint images have the same turn.
 Ask ask_of(double steps, int samples, const Turn& turn, std::uint32_t image) {
-  const int all = samples > 0 ? std::clamp(static_cast<int>(std::ceil(steps)), 1, samples) : 1;
+  int all = 1;
+  if (samples > 0 && steps > 1) all = std::clamp(even(steps), kDesign, samples);
   if (turn.of == 1) return {all, 0, all, 1};
   // Each turn may be off by more than their mean; how much more shows where several surfaces share the pixel.
-  steps /= std::min(kMostShared, std::sqrt(turn.of));
+  steps /= std::min(kMostShared, 2 * std::sqrt(turn.of));
   const int count = std::clamp(static_cast<int>(std::ceil(steps)), 1, all);
   if (steps >= 0.5) return {all, turn.rank * count, count, 1};
   // Faint: asked by every second, third, … turn, for a number that divides all turns.
@@ -81,18 +86,19 @@ Color gather(const LightField& field, std::uint32_t number, const LightPoint& po
   const Ask ask = ask_of(most / field.options.step, static_cast<int>(image.samples.size()) - 1, turn, number);
   if (ask.count == 0) return {};
   const auto sample = [&](int i) { return static_cast<std::size_t>(ask.all == 1 ? 0 : (ask.first + i) % ask.all + 1); };
-  Color sum, seen;
+  Color sum, seen, design;
   int asked = 0;
   bool same = true;
-  // The probes alone give the light of the whole lamp to the third order in its size (lamp.cpp), so where they agree they are enough.
+  // The design alone gives the light of the whole lamp to the third order in its size (lamp.cpp): enough where as many samples agree as its
+  // brightness asks for, so that no border of a shadow passes between them. Turns have few samples each, and others than these.
   const bool small = turn.of == 1 && lamp.extent < kSmall * middle.length;
-  int used = ask.count;
-  for (int i = 0; i < used; ++i) {
+  const int probes = turn.of == 1 ? std::clamp(even(most / field.options.step / kStepsPerProbe), kDesign, kMostProbes) : ask.count;
+  for (int i = 0; i < ask.count; ++i) {
     const Way way = way_to(space, point.origin, image.samples[sample(i)], image.sheet);
     const double share = way.exists ? f(way) : 0;
     const double light = share > 0 ? share * unhindered(field, image, lamp, sample(i), point, way) : 0;
     if (light > 0) {
-      if (asked < kProbes || !same) {
+      if (asked < probes || !same) {
         const Color weight = arriving(field, image, lamp, sample(i), point, way);
         same = same && (asked == 0 || weight == seen);
         seen = weight;
@@ -100,9 +106,10 @@ Color gather(const LightField& field, std::uint32_t number, const LightPoint& po
       }
       sum = sum + light * seen;
     }
-    if (i + 1 == kProbes && small && same && asked == kProbes) used = kProbes;
+    if (i + 1 == kDesign) design = sum;
+    if (i + 1 == probes && small && same && asked == probes) return (1.0 / kDesign) * (lamp.power * design);
   }
-  return (ask.weight / used) * (lamp.power * sum);
+  return (ask.weight / ask.count) * (lamp.power * sum);
 }
 
 Color falling(const LightField& field, std::uint32_t image, const LightPoint& point, const Turn& turn) {

@@ -13,7 +13,7 @@ namespace orbc::light {
 
 struct LightOptions {
   int bounces = 2;                  ///< mirrors that the light of lamps is followed over
-  double step = 0.012;              ///< of white: what one sample of a lamp may add to a point; its shadows have such steps
+  double step = 0.006;              ///< of white: what one sample of a lamp may add to a point; its shadows have such steps
   int passes = 0;                   ///< how often matte surfaces may pass light on to each other; 0: `integrator: direct`
   int leg_bounces = 12;             ///< of light that surfaces pass on: mirrors from one surface to the next,
   double leg_min_weight = 0;        ///< and the weight below which it is cut off;
@@ -52,8 +52,8 @@ struct Turn {
 
 /// Power per area that falls on a surface point from all lamps, straight and over mirrors.
 /// Units:  a lamp of power Φ gives Φ/(4πr²) at distance r in E², face on. Ambient light is not in it.
-/// Error:  shadows of lamps with an extent are those of 32 points; images below `cut` are left out; light that comes by surfaces other than
-///         mirrors is not in it. Of a turn the mean over all turns counts; alone it may be off by 4 steps for each image.
+/// Error:  shadows of lamps with an extent are those of at most 128 points; images below `cut` are left out; light that comes by surfaces
+///         other than mirrors is not in it. Of a turn the mean over all turns counts; alone it may be off by 8 steps for each image.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point, const Turn& turn = {});
 /// The same from some of the images.
 [[nodiscard]] scene::Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images);
@@ -80,9 +80,9 @@ struct Turn {
 /// The light of glossy and metal surfaces that a matte one does not have: the lamps' reflections in it, towards the eye. What else metals
 /// mirror is render's: the room in their facets (lobe.h).
 /// Formula: GGX (Walter et al., Microfacet Models for Refraction, 2007) with Smith's shadowing and Schlick's Fresnel; α = roughness². Of a
-/// lamp with an extent all samples count.
-/// Error:   highlights that cannot reach 1/3000 of white are left out.
+/// lamp with an extent its points count one by one, and as many shadow rays as it is bright.
+/// Error:   highlights that cannot reach 1/3000 of white are left out; steps of shadows in them are up to 1/400 of white.
 [[nodiscard]] scene::Color highlight(const LightField& field, const LightPoint& point, const trace::Direction& to_eye,
-                                     const scene::Material& material, const scene::Color& albedo, const Turn& turn = {});
+                                     const scene::Material& material, const scene::Color& albedo);
 
 }  // namespace orbc::light

@@ -22,9 +22,7 @@ Ball ball_of(geometry::Space space, const place::PlacedMesh& part) {
 
 }  // namespace
 
-bool shines(const scene::Material& material) {
-  return material.kind == scene::MaterialKind::glossy || material.kind == scene::MaterialKind::metal;
-}
+bool shines(const scene::Material& material) { return material.kind == scene::MaterialKind::glossy; }
 
 std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const LightField& field, const DrawnParts& drawn, bool seen_in) {
   const auto own_light = [&](const scene::Material& m) { return shines(m) || (seen_in && shows_room(m, field.lit)); };

@@ -20,7 +20,7 @@ struct ShinyPart {
   std::vector<bool> in_model;       ///< which models have it; empty: all
 };
 
-/// Whether a material shows highlights of lamps.
+/// Whether a material shows highlights of lamps over its diffuse light. Metals show them with the room, as a whole.
 [[nodiscard]] bool shines(const scene::Material& material);
 
 /// In: whether one can ask what is seen in mirrors, glass and metals.

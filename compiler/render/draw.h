@@ -16,7 +16,7 @@ struct DrawOptions {
   int max_bounces = 12;
   double min_weight = 0;
   int max_depth = 16;               ///< mirror, glass and metal objects met on one path
-  int glances = 64;                 ///< ways, at most, on which rough metals are seen to mirror the room; all samples together
+  int glances = 256;                ///< ways, at most, on which rough metals are seen to mirror the room; all samples together
   int paths = 8;                    ///< `integrator: path`: paths of light from a sample's surface on
   const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
   const light::BakedLight* baked = nullptr;  ///< where given, what is matte is looked up there instead of being lit

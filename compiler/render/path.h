@@ -29,7 +29,7 @@ struct Chance {
 ///        ray: the bodies of lamps are not there, so nothing counts twice) and ambient light; each emissive one its light. Ends after
 ///        `field.options.passes` surfaces, by Russian roulette, or at a cut-off mirror, which shows the background.
 /// In:    how many paths; where they begin (the first direction, and the first sample of a lamp) is spread by a lattice.
-/// Exact: its mean over random numbers is the light asked for, but for: caustics (light of lamps by mirror and glass objects), and
+/// Exact: its mean over random numbers is the light asked for, but for: caustics (light of lamps by mirror, glass and metal objects), and
 ///        highlights, which only eyes see.
 [[nodiscard]] scene::Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from,
                                      Chance& chance, int paths = 1);

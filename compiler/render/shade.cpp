@@ -14,11 +14,12 @@ namespace {
 using scene::Color;
 using trace::Direction;
 
-constexpr double kLeastShare = 1.0 / 512;  // a branch of glass below it cannot change an 8-bit picture
+constexpr double kLeastShare = 1.0 / 512;   // a branch of glass below it cannot change an 8-bit picture,
+constexpr double kLeastInMetal = 1.0 / 64;  // nor one below this what a metal shows
 
-constexpr int kMostMetals = 3;             // that mirror each other
-constexpr double kLeastMetal = 1.0 / 48;   // share below which a metal is not looked into
-constexpr double kGlances = 1500;          // per α: gold's lobe (α = 0.02) is seen by 32 ways
+constexpr int kMostMetals = 3;            // that mirror each other
+constexpr double kLeastMetal = 1.0 / 48;  // share below which a metal is not looked into
+constexpr double kGlances = 1500;         // per α: gold's lobe (α = 0.02) is seen by 32 ways
 
 Color at_most(const Color& c, double most) { return {std::min(c.r, most), std::min(c.g, most), std::min(c.b, most)}; }
 Color least(const Color& a, const Color& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
@@ -26,9 +27,9 @@ Color least(const Color& a, const Color& b) { return {std::min(a.r, b.r), std::m
 /// How many ways to look for what a metal mirrors: the rougher, the more, until steps between them no longer show; fewer where it is faint.
 int glances_of(const scene::Material& material, double counts, int most) {
   const double wanted = kGlances * light::facet_width(material) * std::min(1.0, 2 * counts);
-  int count = 1;
+  int count = 2;
   while (1.5 * count < wanted && count < most) count *= 2;
-  return count;
+  return std::min(count, most);
 }
 
 struct Walker {
@@ -36,8 +37,8 @@ struct Walker {
   const DrawOptions& options;
   Chance chance;
   Seen& seen;
-  double part = 1;                  // of what is added now: one of so many ways
-  int metals = 0;                   // met so far
+  double part = 1;  // of what is added now: one of so many ways
+  int metals = 0;   // met so far
 
   void add(const Color& radiance) {
     seen.radiance = seen.radiance + part * radiance;
@@ -55,8 +56,8 @@ struct Walker {
     light(trace::follow(where, trace::leave(where, at, direction), follow), share, depth + 1, where);
   }
 
-  // The surface that the triangles stand for: seen in facets, mirror and glass would be mosaics. Not where it turns away from the ray,
-  // or would mirror it into the triangle.
+  // The surface that the triangles stand for: seen in triangles, mirror, glass and metal would be mosaics. Not where it turns away from the
+  // ray, or would mirror it into the triangle.
   void smooth(trace::SurfacePoint& point, const trace::Hit& hit) {
     if (!options.light || hit.target != trace::Target::triangle) return;
     const geometry::Space space = scene.room->room.space;
@@ -71,17 +72,18 @@ struct Walker {
   void lit(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color, double share) {
     const light::LightField& field = *options.light;
     const Color weight = share * path.weight;
-    if (material.kind == scene::MaterialKind::emissive) return add(weight * light::radiance_out(field, material, color, {}));
+    // In metal all counts that shines, since each way is but a part of what it shows.
+    if (material.kind == scene::MaterialKind::emissive)
+      return add(weight * (metals > 0 ? material.emission * color : light::radiance_out(field, material, color, {})));
     const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
     const double white = light::white_of(field);
     const auto known = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
     Color out = known ? white * *known : light::radiance_out(field, material, color, light::irradiance(field, at, chance.turn));
-    if (material.kind == scene::MaterialKind::glossy)
-      out = out + light::highlight(field, at, -point.arriving, material, color, chance.turn);
+    if (material.kind == scene::MaterialKind::glossy) out = out + light::highlight(field, at, -point.arriving, material, color);
     out = at_most(out, white);
     if (known || field.options.passes == 0) return add(weight * out);
     // What a guess lifts beyond white must not be cut off guess by guess: their mean would become too dark.
-    const Color more = color * passed_on(*scene.room, field, at, chance, options.paths);
+    const Color more = color * passed_on(*scene.room, field, at, chance, std::max(1, static_cast<int>(part * options.paths)));
     const Color kept{out.r < white ? more.r : 0, out.g < white ? more.g : 0, out.b < white ? more.b : 0};
     seen.radiance = seen.radiance + part * weight * (out + kept);
     seen.passed_on = seen.passed_on + part * weight * kept;
@@ -90,37 +92,40 @@ struct Walker {
 
   // Metal seen in metal is, where it is faint or seen in a third, its plain colour; its inside is met by rounding alone.
   [[nodiscard]] bool mirrors(const trace::SurfacePoint& point, double share, int depth) const {
-    return metals < kMostMetals && part * share >= kLeastMetal && (point.outside || depth == 0);
+    return metals < kMostMetals && share >= kLeastMetal && (point.outside || depth == 0);
   }
 
-  // The room in a metal's facets, each way of this sample a sample by itself; and the lamps, by their highlights.
+  // The room in a metal's facets, each way of this sample a sample by itself; and the lamps, by their highlights. Together they show no
+  // more than white, but what comes on single ways may: their mean counts.
   void metal(const trace::Path& path, trace::SurfacePoint point, const scene::Material& material, const Color& color, double share,
              int depth) {
     const light::LightField& field = *options.light;
-    const Color face_on = light::face_on(material, color), before = seen.radiance, most_before = seen.most;
+    const Color face_on = light::face_on(material, color), weight = part * share * path.weight, white = light::white_of(field) * weight;
     const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
+    const Color lamps = least(weight * light::highlight(field, at, -point.arriving, material, color), white);
+    const Color before = seen.radiance, most_before = seen.most;
     const Direction flat = point.normal;
     smooth(point, path.hit);
-    const int all = glances_of(material, part * share * largest(path.weight), std::max(1, options.glances >> (3 * std::min(metals, 3))));
     const light::Turn turn = chance.turn;
+    const int paths_before = chance.before;
+    const int all = glances_of(material, share * largest(path.weight), std::max(1, options.glances >> (3 * metals)));
     const int count = std::max(1, all / turn.of);
-    const auto pair = static_cast<std::size_t>(2 * std::min(metals, 2));
+    const double alpha = light::facet_width(material), facing = -trace::inner(scene.prism.space, point.arriving, point.normal);
+    const Color kept = light::by_several_facets(face_on, facing, alpha) * path.weight;
     part /= count, ++metals;
     for (int i = 0; i < count; ++i) {
       chance.turn = {turn.rank * count + i, turn.of * count};
-      const auto u = light::lattice_of_six(chance.turn.rank, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
-      const bool sharp = all == 1 && turn.of == 1;
-      const light::Glance way = light::glance(scene.prism.space, point, light::facet_width(material),
-                                              sharp ? std::array<double, 2>{0, 0} : std::array<double, 2>{u[pair], u[pair + 1]});
+      chance.before = paths_before * count + i;
+      const auto u = light::facet_numbers(chance.turn.rank, chance.turn.of, metals - 1);
+      const light::Glance way = light::glance(scene.prism.space, point, alpha, u);
       if (way.weight <= 0 || trace::inner(scene.prism.space, way.direction, flat) <= 0) continue;
-      go_on(path, point, way.direction, path.weight * light::reflectance(face_on, way.cosine), share * way.weight, depth, true);
+      go_on(path, point, way.direction, kept * light::reflectance(face_on, way.cosine), share * way.weight, depth, true);
     }
     part *= count, --metals;
-    chance.turn = turn;
-    const Color weight = part * share * path.weight, lamps = weight * light::highlight(field, at, -point.arriving, material, color, turn);
-    const Color white = light::white_of(field) * weight;
-    seen.radiance = before + least(seen.radiance + lamps + -1.0 * before, white);
-    seen.most = most_before + least(seen.most + lamps + -1.0 * most_before, white);
+    chance.turn = turn, chance.before = paths_before;
+    const Color ways = seen.radiance + -1.0 * before;
+    seen.radiance = before + lamps + Color{lamps.r < white.r ? ways.r : 0, lamps.g < white.g ? ways.g : 0, lamps.b < white.b ? ways.b : 0};
+    seen.most = most_before + white;
   }
 
   // In: where the path was followed.
@@ -136,18 +141,25 @@ struct Walker {
     const bool glows = material->kind == scene::MaterialKind::emissive;
     if (glows && !options.light) return add(share * (path.weight * at_most(material->emission * color, options.white)));
     const bool mirror = material->kind == scene::MaterialKind::mirror, glass = material->kind == scene::MaterialKind::glass;
-    if (options.light && material->kind == scene::MaterialKind::metal && depth < options.max_depth && mirrors(point, share, depth))
+    const bool polished = options.light && light::polished(*material) && (point.outside || depth == 0);
+    if (options.light && material->kind == scene::MaterialKind::metal && !polished && depth < options.max_depth &&
+        mirrors(point, share, depth))
       return metal(path, point, *material, color, share, depth);
-    if (!(mirror || glass) || depth >= options.max_depth) {
+    if (!(mirror || glass || polished) || depth >= options.max_depth) {
       if (options.light) return lit(path, point, *material, color, share);
       return add(share * (path.weight * at_most(color, options.white)));
     }
     smooth(point, path.hit);
     if (mirror) return go_on(path, point, light::mirrored(scene, point), path.weight * color, share, depth);
+    if (polished) {
+      const double facing = -trace::inner(scene.prism.space, point.arriving, point.normal);
+      const Color kept = light::reflectance(light::face_on(*material, color), facing);
+      return go_on(path, point, light::mirrored(scene, point), path.weight * kept, share, depth);
+    }
     const light::Refraction through = light::refracted(scene, point, material->index);
-    const double back = share * through.reflectance, on = share * (1 - through.reflectance);
-    if (back >= kLeastShare) go_on(path, point, light::mirrored(scene, point), path.weight, back, depth);
-    if (on < kLeastShare) return;
+    const double back = share * through.reflectance, on = share * (1 - through.reflectance), least = metals ? kLeastInMetal : kLeastShare;
+    if (back >= least) go_on(path, point, light::mirrored(scene, point), path.weight, back, depth);
+    if (on < least) return;
     trace::SurfacePoint behind = point;
     behind.normal = -point.normal;
     go_on(path, behind, through.direction, point.outside ? path.weight * color : path.weight, on, depth);

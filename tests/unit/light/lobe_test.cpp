@@ -1,5 +1,6 @@
 #include "compiler/light/lobe.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -87,4 +88,39 @@ TEST_CASE("metals mirror their colour face on, and white at grazing angles; glos
   CHECK(light::reflectance(light::face_on(metal, gold), 1) == gold);
   CHECK(light::reflectance(light::face_on(metal, gold), 0).b == Approx(1));
   CHECK(light::face_on(glossy, gold).r == Approx(0.04));
+}
+
+TEST_CASE("the ways of a metal, and any even part of them from an even one on, look about the mirrored way", "[light]") {
+  for (const int n : {2, 4, 8, 16, 32, 64, 128, 256}) {
+    double across = 0, up = 0, depth = 0;
+    for (int k = 0; k < n; ++k) {
+      const auto u = light::facet_numbers(k, n, 0);
+      REQUIRE((u[0] >= 0 && u[0] < 1 && u[1] >= 0 && u[1] < 1));
+      depth += u[0] / n;
+      across += std::sqrt(u[0]) * std::cos(2 * kPi * u[1]) / n, up += std::sqrt(u[0]) * std::sin(2 * kPi * u[1]) / n;
+      INFO(n << " ways, up to " << k);
+      if (k % 2) CHECK(std::hypot(across, up) < 1e-12);
+    }
+    CHECK(depth == Approx(0.5));   // as many within half the disk as without
+    // Layers: every sixteenth of the disk's area has its share.
+    if (n < 32) continue;
+    std::array<int, 16> in_layer{};
+    for (int k = 0; k < n; ++k) ++in_layer[static_cast<std::size_t>(16 * light::facet_numbers(k, n, 0)[0])];
+    for (const int count : in_layer) CHECK(count == n / 16);
+  }
+}
+
+TEST_CASE("the facets of the second and third metal on a way are independent of the first's", "[light]") {
+  constexpr int kWays = 256;
+  for (const int metal : {1, 2})
+    for (const std::size_t a : {0u, 1u})
+      for (const std::size_t b : {0u, 1u}) {
+        double product = 0, mean = 0;
+        for (int k = 0; k < kWays; ++k) {
+          const double first = light::facet_numbers(k, kWays, 0)[a] - 0.5, next = light::facet_numbers(k, kWays, metal)[b] - 0.5;
+          product += first * next / kWays, mean += next / kWays;
+        }
+        CHECK(std::fabs(mean) < 0.01);
+        CHECK(std::fabs(12 * product) < 0.1);   // correlation
+      }
 }

@@ -212,7 +212,7 @@ TEST_CASE("the samples of a pixel together see the light that one alone sees, wi
           most = std::max(most, std::fabs(sum / samples - whole));
         }
         INFO(orbifold << ", " << samples << " samples");
-        CHECK(most < l.field.options.step / 2);
+        CHECK(most < l.field.options.step);
         CHECK(spread < 0.25);  // each may be off by its steps, since only the mean is seen
         if (samples == 64) CHECK(spread > 0);
       }
