@@ -21,6 +21,7 @@ orbc_system_test(system_mirrors_against_copies mirrors_against_copies.py 900 ren
 orbc_system_test(system_lamp_against_povray lamp_against_povray.py 120 render)
 orbc_system_test(system_native_lights native_lights.py 300 render)
 orbc_system_test(system_masks masks.py 600 render)
+orbc_system_test(system_metals metals.py 600 render)
 orbc_system_test(system_examples examples.py 1800 render)
 orbc_system_test(system_command_line command_line.py 300 fast)
 orbc_system_test(system_verify_rooms verify_rooms.py 1800 render slow)

@@ -127,7 +127,7 @@ TEST_CASE("every matte surface in an emissive room takes on ρ times its light",
   }
 }
 
-TEST_CASE("metal shows what it keeps of a furnace: white all of it, however rough, others their colour, but white when grazing", "[render]") {
+TEST_CASE("metal shows what it keeps of a furnace: white all of it, however rough, others their colour, white when grazing", "[render]") {
   for (const char* notation : kRooms)
     for (const double roughness : {0.0, 0.05, 0.2, 0.6, 1.0}) {
       scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, false);
