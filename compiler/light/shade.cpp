@@ -20,8 +20,8 @@ using geometry::Space;
 using scene::Color;
 using trace::Direction;
 
-constexpr int kMostProbes = 16;       // samples that decide whether there is a penumbra at all
-constexpr double kStepsPerProbe = 8;  // of light that may pass between two of them
+constexpr int kMostProbes = 32;       // samples that decide whether there is a penumbra at all
+constexpr double kStepsPerProbe = 4;  // of light that may pass between two of them
 constexpr double kMostShared = 8;     // steps that one turn of several may be off, for each image
 constexpr double kSmall = 0.25;       // extent of a lamp over its distance: the third order is 1.5 % of it, and less of the light
 
