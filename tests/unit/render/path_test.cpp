@@ -85,6 +85,18 @@ Mean mean_of(const render::Film& film) {
 
 const char* const kRooms[] = {"*222", "*2222", "*22222"};  // S², E², H²
 
+
+/// A matte ball of 0.5 in a room that gives off 0.4 everywhere.
+scene::Scene glowing(const char* notation) {
+  scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, false);
+  scene::Material glow;
+  glow.kind = scene::MaterialKind::emissive;
+  glow.color = {0.4, 0.4, 0.4};
+  s.room.floor.material = s.room.ceiling.material = glow;
+  for (scene::Wall& wall : s.room.walls) wall.material = glow;
+  return s;
+}
+
 }  // namespace
 
 TEST_CASE("a room all of one colour under ambient light glows like a furnace: ρ·a/(1 − ρ)", "[render]") {
@@ -103,12 +115,7 @@ TEST_CASE("a room all of one colour under ambient light glows like a furnace: ρ
 
 TEST_CASE("every matte surface in an emissive room takes on ρ times its light", "[render]") {
   for (const char* notation : kRooms) {
-    scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, false);
-    scene::Material glow;
-    glow.kind = scene::MaterialKind::emissive;
-    glow.color = {0.4, 0.4, 0.4};
-    s.room.floor.material = s.room.ceiling.material = glow;
-    for (scene::Wall& wall : s.room.walls) wall.material = glow;
+    const scene::Scene s = glowing(notation);
     const auto l = lit(s, 8);
     const render::Film film = render::draw(l->traced, eye_in(l->room, 32, 24), drawing(*l, 16), serial_executor());
     double on_ball = 0;
@@ -130,12 +137,7 @@ TEST_CASE("every matte surface in an emissive room takes on ρ times its light",
 TEST_CASE("metal shows what it keeps of a furnace: white all of it, however rough, others their colour, white when grazing", "[render]") {
   for (const char* notation : kRooms)
     for (const double roughness : {0.0, 0.05, 0.2, 0.6, 1.0}) {
-      scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, false);
-      scene::Material glow;
-      glow.kind = scene::MaterialKind::emissive;
-      glow.color = {0.4, 0.4, 0.4};
-      s.room.floor.material = s.room.ceiling.material = glow;
-      for (scene::Wall& wall : s.room.walls) wall.material = glow;
+      scene::Scene s = glowing(notation);
       s.objects[0].material->kind = scene::MaterialKind::metal;
       s.objects[0].material->roughness = roughness;
       s.objects[0].material->color = {1, 0.5, 0.25};
