@@ -8,6 +8,8 @@ namespace orbc {
 using Integer = boost::multiprecision::cpp_int;
 using Rational = boost::multiprecision::cpp_rational;
 
+[[nodiscard]] inline bool is_integer(const Rational& value) { return denominator(value) == 1; }
+
 /// "-1/84", "2", "0".
 [[nodiscard]] inline std::string to_string(const Rational& value) { return value.str(); }
 [[nodiscard]] inline std::string to_string(const Integer& value) { return value.str(); }

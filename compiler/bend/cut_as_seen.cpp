@@ -21,7 +21,7 @@ namespace {
 using cover::Bearing;
 using geometry::Vector3;
 
-constexpr double kOn = 4e-7;        // radians: positions are floats
+constexpr double kOnPlane = 4e-7;   // radians: positions are floats
 constexpr double kWidest = 0.5;     // cosine of the widest piece of a polyline
 constexpr int kDeepest = 12;        // halvings
 
@@ -167,7 +167,7 @@ class Cutter {
     if (v.on[0] == plane || v.on[1] == plane) return 0;
     const Plane& p = planes_.planes[static_cast<std::size_t>(plane)];
     const double value = dot(p.normal, v.p);
-    return p.upright && std::fabs(value) <= kOn * (std::fabs(v.p.x) + std::fabs(v.p.y)) ? 0 : value;
+    return p.upright && std::fabs(value) <= kOnPlane * (std::fabs(v.p.x) + std::fabs(v.p.y)) ? 0 : value;
   }
 
   /// Whether no corner lies on the side of the plane.

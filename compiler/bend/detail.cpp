@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "compiler/bend/log_map.h"
@@ -13,8 +12,6 @@ using geometry::Space;
 using geometry::Vector3;
 
 namespace {
-
-constexpr double kCannotTell = std::numeric_limits<double>::infinity();
 
 /// Path lengths on the floor to a circle whose points are at distances near … far from the eye's foot, and by how much lengths across the
 /// way are stretched there at most: r / |sin r| grows towards the ends of a half turn (and is 1 at the eye's own foot).

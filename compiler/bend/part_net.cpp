@@ -7,7 +7,6 @@
 // ½(tanκ(ℓu/2)/tanκ(ℓ/2) − u), at most ℓ²/50 for ℓ ≤ 1. In the conformal chart |C''| ≤ 1.5|z|(1 + κ|z|²).
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "compiler/bend/tessellate.h"
@@ -17,8 +16,6 @@ namespace orbc::bend {
 using geometry::Space;
 
 namespace {
-
-constexpr double kCannotTell = std::numeric_limits<double>::infinity();
 
 void collect_edges(const place::PlacedMesh& mesh, PartNet& net) {
   const std::size_t vertices = mesh.floor.size();

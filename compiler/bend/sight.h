@@ -1,9 +1,13 @@
 #pragma once
 #include <array>
+#include <limits>
 
 #include "compiler/bend/bend.h"
 
 namespace orbc::bend {
+
+/// A bound where none can be given.
+constexpr double kCannotTell = std::numeric_limits<double>::infinity();
 
 /// What is outside of a perspective picture may be so many times coarser.
 constexpr double kOutside = 8;

@@ -27,7 +27,7 @@ using geometry::Ambient;
 using geometry::Isometry;
 using geometry::Space;
 
-constexpr double kSame = 1e-12;   // radians
+constexpr double kSameWay = 1e-12;  // radians
 
 struct Beam {
   Isometry cover_from_room;
@@ -50,7 +50,6 @@ struct Seen {
   std::vector<Sill> sills;
 };
 
-bool is_integer(const Rational& value) { return denominator(value) == 1; }
 bool is_orbifold(const place::PlacedRoom& room) {
   return std::all_of(room.room.orbifold.corners.begin(), room.room.orbifold.corners.end(), is_integer);
 }
@@ -63,8 +62,8 @@ Bearing bearing_of(const Ambient& seen, int sheet) {
 
 /// Bearings that lie on a border of the wedge, but for rounding, become that border.
 Bearing snapped(const Bearing& b, const Wedge& wedge) {
-  if (std::fabs(turn(wedge.from, b)) < kSame && ahead(wedge.from, b)) return wedge.from;
-  if (std::fabs(turn(wedge.to, b)) < kSame && ahead(wedge.to, b)) return wedge.to;
+  if (std::fabs(turn(wedge.from, b)) < kSameWay && ahead(wedge.from, b)) return wedge.from;
+  if (std::fabs(turn(wedge.to, b)) < kSameWay && ahead(wedge.to, b)) return wedge.to;
   return b;
 }
 bool holds(const Wedge& wedge, const Bearing& b) {

@@ -17,8 +17,6 @@ using geometry::Isometry;
 using geometry::Point;
 using geometry::Space;
 
-bool is_integer(const Rational& value) { return denominator(value) == 1; }
-
 }  // namespace
 
 Result<Reach> reach_of(const place::PlacedRoom& room, const scene::CoverSpec& spec) {

@@ -11,6 +11,7 @@
 
 #include "compiler/geometry/predicates.h"
 #include "compiler/light/frame.h"
+#include "compiler/light/random.h"
 #include "compiler/place/locate.h"
 
 namespace orbc::light {
@@ -24,8 +25,6 @@ using scene::LampKind;
 constexpr int kSamples = 128;           // of a lamp with an extent; single points ask the first of them, pixels of many samples all
 constexpr double kPointRadius = 0.02;   // points have none; this keeps the focus of S² finite
 constexpr double kDefaultHeight = 0.9;  // of the room's
-
-double fraction(double v) { return v - std::floor(v); }
 
 // From the fifth on samples come in pairs about the middle: which pair, and whether it is the second of it.
 int pair_of(int i) { return (i - kDesign) / 2; }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "compiler/light/frame.h"
+#include "compiler/light/random.h"
 
 namespace orbc::light {
 namespace {
@@ -15,8 +16,6 @@ using scene::Color;
 
 constexpr double kSmoothest = 0.002;  // α: of what is smoother no float can tell the lobe
 constexpr double kPolished = 0.003;   // α: of what is smoother the lobe is finer than a pixel
-
-double fraction(double v) { return v - std::floor(v); }
 
 // The binary digits of k behind the point, in reverse.
 double mirrored_digits(unsigned k) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace orbc::light {
@@ -11,6 +12,9 @@ namespace orbc::light {
   v = (v ^ (v >> 27)) * 0x94d049bb133111ebu;
   return v ^ (v >> 31);
 }
+
+/// What stands behind the point.
+[[nodiscard]] inline double fraction(double v) { return v - std::floor(v); }
 
 /// The k-th point of the unit cube, moved by `shift` (each part in [0, 1)): the lattice of the number that solves x⁴ = x + 1, whose every
 /// beginning is well spread (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).

@@ -26,8 +26,6 @@ void record(const Seen& seen, std::size_t pixel, Film& film) {
                         static_cast<float>(seen.surface.normal.z)};
 }
 
-scene::Color least(const scene::Color& a, const scene::Color& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
-
 /// Sums over a pixel's samples, in their order.
 struct Sums {
   scene::Color radiance, most;

@@ -22,7 +22,6 @@ constexpr double kLeastMetal = 1.0 / 48;  // share below which a metal is not lo
 constexpr double kGlances = 1500;         // per α: gold's lobe (α = 0.02) is seen by 32 ways
 
 Color at_most(const Color& c, double most) { return {std::min(c.r, most), std::min(c.g, most), std::min(c.b, most)}; }
-Color least(const Color& a, const Color& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
 
 /// How many ways to look for what a metal mirrors: the rougher, the more, until steps between them no longer show; fewer where it is faint.
 int glances_of(const scene::Material& material, double counts, int most) {

@@ -15,6 +15,8 @@ struct Color {
 [[nodiscard]] constexpr Color operator*(double s, const Color& c) { return {s * c.r, s * c.g, s * c.b}; }
 [[nodiscard]] constexpr Color operator+(const Color& a, const Color& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 [[nodiscard]] constexpr bool operator==(const Color& a, const Color& b) { return a.r == b.r && a.g == b.g && a.b == b.b; }
+/// Channel by channel.
+[[nodiscard]] constexpr Color least(const Color& a, const Color& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
 /// Of its channels.
 [[nodiscard]] constexpr double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 

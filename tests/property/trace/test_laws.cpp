@@ -49,7 +49,7 @@ void compare(const place::PlacedRoom& placed, int rays, double steep, Random& ra
 
 }  // namespace
 
-TEST_CASE("a million rays in every space meet what trying all triangles in double finds", "[trace][slow]") {
+TEST_CASE("a million rays in every space meet what trying all triangles in double finds", "[trace][slow][long]") {
   Random random{7};
   const std::vector<std::vector<room::Room>> spaces{{regular_room(Space::spherical, 3, 2), lune(2), lune(5), half_lune(6), hemisphere()},
                                                     {regular_room(Space::euclidean, 4, 2)},
@@ -76,7 +76,7 @@ TEST_CASE("a million rays in every space meet what trying all triangles in doubl
   }
 }
 
-TEST_CASE("a million rays at vertices and edges of closed surfaces all stop", "[trace][slow]") {
+TEST_CASE("a million rays at vertices and edges of closed surfaces all stop", "[trace][slow][long]") {
   for (const auto& space : {Space::spherical, Space::euclidean, Space::hyperbolic}) CHECK(leaks(space, 120'000, 11) == 0);
 }
 

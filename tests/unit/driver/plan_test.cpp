@@ -54,7 +54,7 @@ TEST_CASE("the plan foresees copies exactly, and triangles, vertices and bytes w
   }
 }
 
-TEST_CASE("the plan foresees panels and budgets as well", "[driver]") {
+TEST_CASE("the plan foresees panels and budgets as well", "[driver][long]") {
   const Executor executor = driver::parallel_executor();
   const int which = GENERATE(0, 1, 2, 3);
   auto opened =

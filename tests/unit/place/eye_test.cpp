@@ -203,7 +203,7 @@ TEST_CASE("an eye in a column from floor to ceiling is inside it", "[place]") {
   CHECK(code_of(scene, placed) == "");
 }
 
-TEST_CASE("the eye in the hole of a ring is not inside it, wherever the vertical line meets edges and vertices", "[place]") {
+TEST_CASE("the eye in the hole of a ring is not inside it, wherever the vertical line meets edges and vertices", "[place][long]") {
   scene::Scene scene = bare_scene("*2222");
   scene::Object ring;
   ring.name = "ring";
