@@ -10,9 +10,10 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "compiler/light/blocks.h"
-#include "compiler/light/light_grid.h"
+#include "compiler/light/lit_part.h"
 #include "compiler/light/passing.h"
 #include "compiler/light/pattern_density.h"
 #include "compiler/light/way.h"
@@ -26,17 +27,6 @@ using scene::Color;
 using Texel = std::array<std::uint8_t, 4>;
 
 constexpr double kContrast = 5;     // steps of 1/255 between neighbouring points that ask for a point between them
-
-struct Part {
-  const place::PlacedRoom& room;
-  const LightField& field;
-  const BakeOptions& options;
-  const PlacedMesh& mesh;
-  const PartNormals& normals;
-  bool stand_in = false;            ///< a coarser level of another part: light is that of the part itself
-  std::vector<Color> at_vertex;     ///< irradiance at normals.vertices
-  std::vector<std::uint8_t> blind_vertex;
-};
 
 std::array<std::uint16_t, 3> deep_code(const Color& c) {
   const auto code = [](double v) { return static_cast<std::uint16_t>(std::lround(65535 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
@@ -61,7 +51,7 @@ struct Finished {
 
 class BlockBaker {
  public:
-  BlockBaker(const Part& part, const Block& block) : part_(part), block_(block) {
+  BlockBaker(const LitPart& part, const Block& block) : part_(part), block_(block) {
     const int look = part.mesh.look[block.first];
     varies_ = varies(part.room, look, has_solid(part.mesh));
     material_ = &part.room.looks[static_cast<std::size_t>(look)].material;
@@ -148,13 +138,17 @@ class BlockBaker {
       grid_.blind[index(i, j)] = part_.blind_vertex[part_.normals.corners[t][k]];
       return;
     }
-    ++grid_.asked;
     const InTriangle at = within_block(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1), kWithin);
+    const PointToLight asked = point_to_light(part_, at.triangle, at.b, std::max(block_.length_u, block_.length_v) / 2);
+    grid_.blind[index(i, j)] = 0;
+    if (asked.known) {
+      light = *asked.known;
+      return;
+    }
+    ++grid_.asked;
     if (!near_known_) near_ = images_near_block(), near_known_ = true;
-    LightPoint point = light_point(part_.room, part_.mesh, part_.normals, at.triangle, at.b);
-    if (part_.stand_in) point = on_surface(part_.field, point, std::max(block_.length_u, block_.length_v) / 2);
-    light = irradiance(part_.field, point, near_);
-    grid_.blind[index(i, j)] = light == Color{} && covered(part_.field, point);
+    light = irradiance(part_.field, asked.point, near_);
+    grid_.blind[index(i, j)] = light == Color{} && covered(part_.field, asked.point);
   }
 
   std::vector<std::uint32_t> images_near_block() const {
@@ -285,7 +279,7 @@ class BlockBaker {
     return cells + 1;
   }
 
-  const Part& part_;
+  const LitPart& part_;
   const Block& block_;
   Grid grid_;
   const scene::Material* material_ = nullptr;
@@ -294,44 +288,6 @@ class BlockBaker {
   std::vector<std::uint32_t> near_;  ///< images that matter here
   bool near_known_ = false;
 };
-
-void light_vertices(Part& part, const Executor& executor, const Progress& progress) {
-  constexpr std::size_t kChunk = 32;
-  // What glows is not lit.
-  struct Corner {
-    std::size_t triangle = 0, k = 3;
-  };
-  std::vector<Corner> lit(part.normals.vertices.size());
-  for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t)
-    if (part.room.looks[part.mesh.look[t]].material.kind != scene::MaterialKind::emissive)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (Corner& corner = lit[part.normals.corners[t][k]]; corner.k > 2) corner = {t, k};
-  part.at_vertex.resize(part.normals.vertices.size());
-  part.blind_vertex.assign(part.normals.vertices.size(), 0);
-  std::atomic<std::uint64_t> done{0};
-  executor((part.at_vertex.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    const std::size_t end = std::min((chunk + 1) * kChunk, part.at_vertex.size());
-    const auto position = [&](std::size_t i) {
-      const std::uint32_t v = part.normals.vertices[i].vertex;
-      return geometry::Position{part.mesh.floor[v], part.mesh.z[v]};
-    };
-    const geometry::Position centre = position(chunk * kChunk);
-    double radius = 0;
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const geometry::Position p = position(i);
-      radius = std::max(radius, std::hypot(geometry::distance(part.room.room.space, centre.floor, p.floor), p.z - centre.z));
-    }
-    const std::vector<std::uint32_t> near = images_near(part.field, centre, radius);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      if (lit[i].k > 2) continue;
-      LightPoint point = light_point(part.room, part.mesh, part.normals, lit[i].triangle, near_corner(lit[i].k));
-      if (part.stand_in) point = on_surface(part.field, point, kOnVertex);
-      part.at_vertex[i] = irradiance(part.field, point, near);
-      part.blind_vertex[i] = part.at_vertex[i] == Color{} && covered(part.field, point);
-    }
-    if (chunk % 16 == 0) report(progress, "baking", done.fetch_add(16 * kChunk), part.at_vertex.size(), "points");
-  });
-}
 
 // The part with vertices of its own for every block, and where they lie in the atlas.
 void rebuild(const std::vector<Block>& blocks, const Finished* finished, int width, int height, PlacedMesh& part,
@@ -423,14 +379,18 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
   std::vector<std::size_t> first;
   std::vector<PartNormals> own(room.parts.size());   // of fields that have none
   std::vector<const PartNormals*> normals;
-  std::vector<Part> parts;
+  std::vector<LitPart> parts;
   std::vector<LightGrid> lamps;
+  std::optional<SurfaceMap> surfaces;
   Baked baked;
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
     if (p >= field.normals.size()) own[p] = part_normals(room, room.parts[p]);
     normals.push_back(p < field.normals.size() ? &field.normals[p] : &own[p]);
-    Part& part = parts.emplace_back(Part{room, field, options, room.parts[p], *normals[p], field.lit && p >= field.normals.size(), {}, {}});
-    light_vertices(part, executor, progress);
+    const bool stand_in = field.lit && p >= field.normals.size();
+    if (stand_in && !surfaces) surfaces.emplace(room, blocks);
+    LitPart& part =
+        parts.emplace_back(LitPart{room, field, options, room.parts[p], *normals[p], stand_in ? &*surfaces : nullptr, lamps, {}, {}});
+    baked.counts.points += light_vertices(part, executor, progress);
     blocks.push_back(blocks_of(room, static_cast<std::uint32_t>(p), part.normals));
     first.push_back(lamps.size());
     lamps.resize(lamps.size() + blocks.back().size());
@@ -439,7 +399,6 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
       lamps[first[p] + i] = BlockBaker(part, blocks[p][i]).light();
       report(progress, "baking", done.fetch_add(1), blocks[p].size(), "blocks");
     });
-    baked.counts.points += part.at_vertex.size();
   }
   std::vector<LightGrid> passed;
   if (field.options.passes > 0) passed = pass_on({room, field, normals, blocks, lamps}, options.passing, executor, progress);

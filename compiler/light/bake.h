@@ -44,7 +44,8 @@ struct BakeCounts {
 ///              single triangle's texels beyond its long side continue it: c₁ + c₂ − c₀, so that the lookup is linear up to the border. A
 ///              grid is as fine as the light on it asks for: it starts coarse, and between points that differ, or near points that a mean
 ///              would have missed, it is lit again at half the distance. Same bytes for any executor.
-/// In:          the field that prepare_light made for this room.
+/// In:          the field that prepare_light made for this room. Parts beyond those of the field are coarser levels of them: their points
+///              have the light that was found on the surface there; only those that lie on none are lit themselves.
 /// Diagnostics: light.atlas-too-large; the hint names what makes it smaller.
 struct Baked {
   Atlas atlas;

@@ -124,7 +124,7 @@ class PartShine {
     const int number = mesh_.look[t];
     if (known_[v] == number) return at_vertex_[v];
     LightPoint point = light_point(job_.room, mesh_, normals_, t, near_corner(static_cast<std::size_t>(k)));
-    if (stand_in() && !whole_) point = on_surface(job_.field, point, kOnVertex);
+    if (stand_in() && !whole_) point = on_surface(job_.field, point, kOnVertex).point;
     at_vertex_[v] = shine(point, look.material, at_single_points(look.material));
     known_[v] = number;
     return at_vertex_[v];
@@ -136,7 +136,7 @@ class PartShine {
     const double u = static_cast<double>(i) / (grid.w - 1), v = static_cast<double>(j) / (grid.h - 1);
     const InTriangle at = within_block(block, u, v, kWithin);
     LightPoint point = light_point(job_.room, mesh_, normals_, at.triangle, at.b);
-    if (stand_in() && !whole_) point = on_surface(job_.field, point, std::max(block.length_u, block.length_v) / 2);
+    if (stand_in() && !whole_) point = on_surface(job_.field, point, std::max(block.length_u, block.length_v) / 2).point;
     return shine(point, look.material, at_single_points(look.material));
   }
   /// A coarser level: what shines is the part itself (seen_in puts its points there by itself).

@@ -34,6 +34,7 @@ struct Node {
   Color given;                      ///< from surfaces under their lamps, from those that glow, from the background
   Color passed;                     ///< all that surfaces pass on to it
   bool blind = false;               ///< sees the inside of things
+  OnBlock stands_for;               ///< of a coarser level: where the part itself has its light, if that is known
   std::size_t first = 0, count = 0; ///< links
 };
 
@@ -52,7 +53,8 @@ class Net {
       add_vertices(s_.room.parts[p], normals, stand_in);
       for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices, stand_in);
     }
-    const std::size_t directions = nodes_.size() * static_cast<std::size_t>(options_.samples);
+    const auto asking = std::count_if(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.stands_for.block < 0; });
+    const std::size_t directions = static_cast<std::size_t>(asking) * static_cast<std::size_t>(options_.samples);
     linked_ = static_cast<int>(std::clamp((directions + kMostLinks - 1) / kMostLinks, std::size_t{kLinked},
                                           static_cast<std::size_t>(std::max(kLinked, options_.samples))));
   }
@@ -63,7 +65,8 @@ class Net {
     std::vector<std::vector<Link>> links(chunks);
     std::atomic<std::uint64_t> done{0};
     executor(chunks, [&](std::size_t c) {
-      for (std::size_t i = c * kChunk; i < std::min(nodes_.size(), (c + 1) * kChunk); ++i) ask(nodes_[i], i, links[c]);
+      for (std::size_t i = c * kChunk; i < std::min(nodes_.size(), (c + 1) * kChunk); ++i)
+        if (nodes_[i].stands_for.block < 0) ask(nodes_[i], i, links[c]);
       report(progress, "passing light on", done.fetch_add(kChunk), nodes_.size(), "points");
     });
     for (std::size_t c = 0; c < chunks; ++c) {
@@ -94,6 +97,7 @@ class Net {
       spread_to_blind();
       if (change < enough) break;
     }
+    lend_to_stand_ins();
   }
 
   [[nodiscard]] std::vector<LightGrid> grids() const {
@@ -143,6 +147,9 @@ class Net {
           Around& a = around[normals.corners[t][k]];
           a.floor = a.floor + part.floor[part.triangles[t][other]], a.z += part.z[part.triangles[t][other]], ++a.count;
         }
+    std::vector<std::uint16_t> look(normals.vertices.size());
+    for (std::size_t t = 0; t < part.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) look[normals.corners[t][k]] = part.look[t];
     for (std::size_t v = 0; v < normals.vertices.size(); ++v) {
       LightPoint point = light_point(s_.room, part, normals.vertices[v]);
       double reach = kOnVertex;
@@ -156,9 +163,26 @@ class Net {
         if (length > 1e-9) point.at = point.origin = exponential(space, point.at, frame, (step / length) * along);
         reach = std::max(reach, step);
       }
-      if (stand_in) point = on_surface(s_.field, point, reach);
-      nodes_.push_back({point, {}, {}, false, 0, 0});
+      add_node(point, stand_in ? reach : 0, look[v]);
     }
+  }
+
+  // In: of stand-ins, how far off their surface it may be.
+  void add_node(const LightPoint& point, double reach, std::uint16_t look) {
+    Node& node = nodes_.emplace_back();
+    node.at = point;
+    if (reach == 0) return;
+    const OnSurface foot = on_surface(s_.field, point, reach);
+    node.at = foot.point;
+    node.stands_for = map_.stood_for(foot.hit, look);
+  }
+
+  void lend_to_stand_ins() {
+    const std::vector<LightGrid> passed = grids();
+    for (Node& node : nodes_)
+      if (const OnBlock& on = node.stands_for; on.block >= 0)
+        node.passed = light_at(passed[static_cast<std::size_t>(on.block)], on.u, on.v);
+    spread_to_blind();
   }
 
   void add_block(const place::PlacedMesh& part, const PartNormals& normals, const Block& block, std::size_t vertices, bool stand_in) {
@@ -177,9 +201,8 @@ class Net {
         } else {
           const InTriangle at = within_block(block, static_cast<double>(i) / (mesh.w - 1), static_cast<double>(j) / (mesh.h - 1), kWithin);
           mesh.node.push_back(static_cast<std::int32_t>(nodes_.size()));
-          LightPoint point = light_point(s_.room, part, normals, at.triangle, at.b);
-          if (stand_in) point = on_surface(s_.field, point, std::max(block.length_u, block.length_v) / 2);
-          nodes_.push_back({point, {}, {}, false, 0, 0});
+          add_node(light_point(s_.room, part, normals, at.triangle, at.b), stand_in ? std::max(block.length_u, block.length_v) / 2 : 0,
+                   part.look[at.triangle]);
         }
       }
     meshes_.push_back(std::move(mesh));

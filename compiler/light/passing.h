@@ -28,7 +28,7 @@ struct PassOptions {
 ///        a weight. What the lamps give there is added up at once; what has been passed on is carried over the links again and again
 ///        (Jacobi's iteration of the rendering equation; Cohen, Wallace, Radiosity and Realistic Image Synthesis, 1993, §5.3), until
 ///        nothing changes or `passes` is reached. Same numbers for any executor. Points that see the inside of closed things (floor below
-///        frames) take on what their neighbours have.
+///        frames) take on what their neighbours have; coarser levels have what the surface has where they stand for it.
 /// Not promised: more detail than `density`; caustics.
 [[nodiscard]] std::vector<LightGrid> pass_on(const LitSurfaces& surfaces, const PassOptions& options, const Executor& executor,
                                              const Progress& progress);

@@ -42,7 +42,7 @@ int SurfaceMap::cell_of(const Chart& chart, int c, double at, double shift) {
 
 SurfaceMap::SurfaceMap(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks) : room_(room) {
   flats_.resize(2 + room.room.walls.size());
-  for (std::size_t p = 0; p < room.parts.size(); ++p) {
+  for (std::size_t p = 0; p < std::min(room.parts.size(), blocks.size()); ++p) {
     const PlacedMesh& part = room.parts[p];
     std::vector<std::uint32_t>& of = block_of_.emplace_back(part.triangles.size());
     for (const Block& block : blocks[p]) {
@@ -175,6 +175,13 @@ OnBlock SurfaceMap::find(const trace::SurfacePoint& point, const trace::Hit& hit
   for (const std::size_t p : flats_[flat])
     if (const OnBlock found = on_flat(p, point); found.block >= 0) return found;
   return {};
+}
+
+OnBlock SurfaceMap::stood_for(const trace::Hit& hit, std::uint16_t look) const {
+  if (hit.target != trace::Target::triangle) return {};
+  const auto part = static_cast<std::size_t>(hit.part), triangle = static_cast<std::size_t>(hit.triangle);
+  if (room_.parts[part].look[triangle] != look) return {};
+  return on_triangle(part, triangle, {hit.b[0], hit.b[1], hit.b[2]});
 }
 
 }  // namespace orbc::light

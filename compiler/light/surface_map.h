@@ -17,9 +17,11 @@ struct OnBlock {
 /// Finds the block on which a ray has ended. Floor, ceiling and walls are met by formula, so their triangles are looked up here.
 class SurfaceMap {
  public:
-  /// In: the blocks of every part.
+  /// In: the blocks of every part, or of the first ones: rays end on those alone.
   SurfaceMap(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks);
   [[nodiscard]] OnBlock find(const trace::SurfacePoint& point, const trace::Hit& hit) const;
+  /// The block on which a point of a stand-in has its light: that of the triangle where it lies on the surface, if the two look alike.
+  [[nodiscard]] OnBlock stood_for(const trace::Hit& hit, std::uint16_t look) const;
 
  private:
   /// The triangles of a floor, ceiling or wall over a grid of cells of two coordinates.

@@ -134,11 +134,11 @@ double unhindered(const LightField& field, const LampImage& image, const HungLam
   return value * profile(lamp, -trace::inner(space, trace::direction_at(space, ray, way.length), image.axes[sample]));
 }
 
-LightPoint on_surface(const LightField& field, const LightPoint& point, double reach) {
+OnSurface on_surface(const LightField& field, const LightPoint& point, double reach) {
   const Space space = field.scene.prism.space;
   const Frame frame = frame_at(space, point.at.floor);
   const geometry::Vector3 flat = local(space, frame, point.flat);
-  LightPoint nearest = point;
+  OnSurface nearest{point, {}};
   for (const double side : {1.0, -1.0}) {
     // From a little behind: the surface may be just here.
     const Position start = exponential(space, point.at, frame, (-side * trace::kLeave) * flat);
@@ -148,7 +148,7 @@ LightPoint on_surface(const LightField& field, const LightPoint& point, double r
     const LightPoint there = light_point(field, *field.casting, trace::surface_at(field.scene, ray, hit), hit);
     if (trace::inner(space, there.normal, point.normal) < 0.7) continue;  // beyond an edge, or the far side of something thin
     reach = std::fabs(hit.t - trace::kLeave);
-    nearest = there;
+    nearest = {there, hit};
   }
   return nearest;
 }

@@ -24,9 +24,14 @@ struct Way {
 /// How far a stand-in lies off its surface close to vertices, at most: they are vertices of the surface.
 inline constexpr double kOnVertex = 1e-4;
 
+/// Where a point of a stand-in lies on the surface that it stands for.
+struct OnSurface {
+  LightPoint point;
+  trace::Hit hit;                   ///< the triangle; of nothing where no surface is near
+};
 /// A point of a stand-in that lies near a surface of the room, put onto that surface, with its normal: coarse stand-ins cut corners and
 /// would lie in its shadow, and turn elsewhere. In: how far off it may be. Left as it is where nothing is so near.
-[[nodiscard]] LightPoint on_surface(const LightField& field, const LightPoint& point, double reach);
+[[nodiscard]] OnSurface on_surface(const LightField& field, const LightPoint& point, double reach);
 
 /// Whether a point lies under or in a closed thing, which nobody looks into: all ways from it end on the inside of triangles.
 [[nodiscard]] bool covered(const LightField& field, const LightPoint& point);

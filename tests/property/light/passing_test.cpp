@@ -100,7 +100,8 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
   }
 }
 
-TEST_CASE("the light of a lamp, asked at random places of a closed room, is its power, in all three spaces and for every kind", "[light][long]") {
+TEST_CASE("the light of a lamp, asked at random places of a closed room, is its power, in all three spaces and for every kind",
+          "[light][long]") {
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const scene::LampKind kind :
          {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::disk, scene::LampKind::rectangle, scene::LampKind::spot}) {

@@ -38,6 +38,9 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
   const place::PlacedMesh& coarse = both.parts.back();
   const light::Baked baked = light::bake(both, field, light::BakeOptions{}, serial_executor()).value();
   const light::BakedLight known(room, baked);
+  // Its light is that of the box: fewer points of it are asked than it has vertices.
+  const light::Baked alone = light::bake(room, field, light::BakeOptions{}, serial_executor()).value();
+  CHECK(baked.counts.points < alone.counts.points + coarse.floor.size());
 
   const light::PartNormals normals = light::part_normals(both, coarse);
   int compared = 0, off = 0;

@@ -50,7 +50,7 @@ TEST_CASE("a point of a coarser level is lit as the surface just there, not as i
       // Long blocks reach beyond the other side; and normals of a level are not quite those of the part.
       light::LightPoint turned = on;
       turned.normal = on.flat;
-      const light::LightPoint there = light::on_surface(l.field, turned, 0.15);
+      const light::LightPoint there = light::on_surface(l.field, turned, 0.15).point;
       CHECK(trace::inner(space, there.normal, on.normal) == Approx(1).margin(1e-6));
       CHECK(geometry::distance(space, there.at.floor, on.at.floor) + std::fabs(there.at.z - on.at.z) < 1e-6);
       ++sides;
