@@ -19,7 +19,6 @@ function(orbc_tests name folder)
   endif()
   list(TRANSFORM TEST_USES PREPEND orbc::)
   add_executable(${name} ${sources})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # every file has its own helpers
   target_link_libraries(${name} PRIVATE orbc_test_main ${TEST_USES} ${TEST_LIBRARIES})
   target_compile_definitions(${name} PRIVATE ORBC_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ORBC_BINARY_DIR="${CMAKE_BINARY_DIR}")
   # [long]: the same code over many rooms; under sanitizers that takes minutes and shows nothing more.
