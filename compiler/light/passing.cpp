@@ -147,9 +147,9 @@ class Net {
           Around& a = around[normals.corners[t][k]];
           a.floor = a.floor + part.floor[part.triangles[t][other]], a.z += part.z[part.triangles[t][other]], ++a.count;
         }
-    std::vector<std::uint16_t> look(normals.vertices.size());
+    std::vector<std::array<std::size_t, 2>> corner(normals.vertices.size());  // triangle, which of it
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) look[normals.corners[t][k]] = part.look[t];
+      for (std::size_t k = 0; k < 3; ++k) corner[normals.corners[t][k]] = {t, k};
     for (std::size_t v = 0; v < normals.vertices.size(); ++v) {
       LightPoint point = light_point(s_.room, part, normals.vertices[v]);
       double reach = kOnVertex;
@@ -163,7 +163,12 @@ class Net {
         if (length > 1e-9) point.at = point.origin = exponential(space, point.at, frame, (step / length) * along);
         reach = std::max(reach, step);
       }
-      add_node(point, stand_in ? reach : 0, look[v]);
+      const auto [t, k] = corner[v];
+      add_node(point, stand_in ? reach : 0, part.look[t]);
+      if (!stand_in) continue;
+      // It is a vertex of the surface, too, and has the light of that vertex.
+      const OnSurface foot = on_surface(s_.field, light_point(s_.room, part, normals, t, near_corner(k)), kOnVertex);
+      if (const OnBlock on = map_.stood_for(foot.hit, part.look[t]); on.block >= 0) nodes_.back().stands_for = on;
     }
   }
 

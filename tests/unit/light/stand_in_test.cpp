@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "compiler/geometry/point.h"
+#include "compiler/light/bake.h"
 #include "compiler/light/frame.h"
 #include "compiler/light/way.h"
 #include "compiler/notation/parse.h"
@@ -19,7 +21,7 @@ struct Lit {
   light::LightField field;
 };
 
-Lit lit(const std::string& orbifold) {
+Lit lit(const std::string& orbifold, int passes = 0) {
   scene::Scene scene = scene::default_scene(notation::parse(orbifold).value());
   scene.objects.resize(1);
   scene.objects[0].shape = scene::CylinderSpec{0.05, 0.2};
@@ -32,6 +34,7 @@ Lit lit(const std::string& orbifold) {
   Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
   light::LightOptions options;
   options.cut = 0;
+  options.passes = passes;
   result.field = light::prepare_light(result.scene, result.room, options).value();
   return result;
 }
@@ -57,6 +60,33 @@ TEST_CASE("a point of a coarser level is lit as the surface just there, not as i
     }
   }
   CHECK(sides > 100);
+}
+
+TEST_CASE("a level that is the part itself has its light", "[light]") {
+  const int passes = GENERATE(0, 6);
+  const Lit l = lit("*22222", passes);
+  const auto is_cylinder = [](const place::PlacedMesh& part) { return part.kind == place::PartKind::object && light::lamp_of(part) < 0; };
+  const auto p = static_cast<std::size_t>(std::find_if(l.room.parts.begin(), l.room.parts.end(), is_cylinder) - l.room.parts.begin());
+  place::PlacedRoom both = l.room;
+  both.parts.push_back(l.room.parts[p]);
+  scene::BakeSpec draft;
+  draft.quality = scene::BakeQuality::draft;
+  const light::Baked baked = light::bake(both, l.field, light::bake_options(draft), serial_executor()).value();
+  const auto green = [&](const light::Box& box, double u, double v) {
+    const int x = box.x + static_cast<int>(std::lround(u * (box.width - 1))),
+              y = box.y + static_cast<int>(std::lround(v * (box.height - 1)));
+    return static_cast<int>(baked.atlas.image.rgba[4 * static_cast<std::size_t>(y * baked.atlas.image.width + x) + 1]);
+  };
+  REQUIRE(baked.boxes.back().size() == baked.boxes[p].size());
+  int worst = 0, steepest = 0;
+  for (std::size_t b = 0; b < baked.boxes[p].size(); ++b) {
+    const light::Box &own = baked.boxes[p][b], &lent = baked.boxes.back()[b];
+    for (const double u : {0.0, 1.0})
+      for (const double v : {0.0, 1.0}) worst = std::max(worst, std::abs(green(own, u, v) - green(lent, u, v)));
+    steepest = std::max(steepest, std::abs(green(own, 0, 1) - green(own, 1, 0)));
+  }
+  CHECK(worst <= 2);
+  CHECK(steepest > 10);  // taken crosswise it would be seen
 }
 
 TEST_CASE("frames are lit at their mirrors as just before them", "[light]") {
