@@ -19,6 +19,7 @@ function(orbc_tests name folder)
   endif()
   list(TRANSFORM TEST_USES PREPEND orbc::)
   add_executable(${name} ${sources})
+  orbc_unity(${name})
   target_link_libraries(${name} PRIVATE orbc_test_main ${TEST_USES} ${TEST_LIBRARIES})
   target_compile_definitions(${name} PRIVATE ORBC_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ORBC_BINARY_DIR="${CMAKE_BINARY_DIR}")
   # [long]: the same code over many rooms; under sanitizers that takes minutes and shows nothing more.

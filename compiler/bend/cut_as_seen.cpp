@@ -23,7 +23,7 @@ using geometry::Vector3;
 
 constexpr double kOnPlane = 4e-7;   // radians: positions are floats
 constexpr double kWidest = 0.5;     // cosine of the widest piece of a polyline
-constexpr int kDeepest = 12;        // halvings
+constexpr int kMaxSegmentHalvings = 12;        // halvings
 
 /// A plane through the eye.
 struct Plane {
@@ -76,7 +76,7 @@ class Planes {
 
   void refine(const Bearing& from, const Bearing& to, int depth) {
     const Bearing middle = cover::spread({from, to}, 3)[1];
-    if (depth < kDeepest && !straight(from, to)) {
+    if (depth < kMaxSegmentHalvings && !straight(from, to)) {
       refine(from, middle, depth + 1);
       refine(middle, to, depth + 1);
       return;

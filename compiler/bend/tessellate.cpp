@@ -22,7 +22,7 @@ using geometry::Space;
 using geometry::Vector3;
 
 constexpr double kSingular = 1e-9;  // radians; directions as seen from the axis are good to 1e-7 here
-constexpr int kDeepest = 60;        // halvings: down to kSingular and then the circle's steps
+constexpr int kMaxHalvings = 60;        // halvings: down to kSingular and then the circle's steps
 constexpr double kDiskRing = 100;   // View::disk: where the plane ends, the image of the antipode
 
 enum class Axis : std::uint8_t { none, foot, antipode };
@@ -160,7 +160,7 @@ class Splitter {
       mid.axis = mid.seen.w < 0 ? Axis::antipode : Axis::foot;
       mid.at = {circle(mid.axis), 0, mid.z};
     } else {
-      if (depth >= kDeepest) return;
+      if (depth >= kMaxHalvings) return;
       bool at_bisector = false;
       if (!decided([&] { return is_split(id, a, b, at_bisector); })) return;
       const double bisector = bisection(a, b);
@@ -318,7 +318,7 @@ class Splitter {
     int on_axis = 0;
     for (const std::uint32_t i : t) on_axis += corners_[i].axis != Axis::none;
     if (on_axis > 0) return draw_on_axis(t, e, on_axis);
-    if (depth < kDeepest) {
+    if (depth < kMaxHalvings) {
       if (decided([&] { return is_bent(t, e); })) {
         const Corner &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
         std::array<double, 2> uv{};

@@ -15,7 +15,7 @@ using scene::Color;
 using scene::Pattern;
 
 // A well mixed 32-bit number of a lattice point (the finaliser of MurmurHash3; Appleby, public domain).
-double lattice(std::int64_t x, std::int64_t y, std::int64_t z) {
+double lattice_value(std::int64_t x, std::int64_t y, std::int64_t z) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
                     static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
   h ^= h >> 16, h *= 0x85ebca6bu, h ^= h >> 13, h *= 0xc2b2ae35u, h ^= h >> 16;
@@ -30,7 +30,7 @@ double noise(const Vector3& p) {
   const double u = smooth(p.x - fx), v = smooth(p.y - fy), w = smooth(p.z - fz);
   const auto x = static_cast<std::int64_t>(fx), y = static_cast<std::int64_t>(fy), z = static_cast<std::int64_t>(fz);
   const auto mix = [](double a, double b, double t) { return a + t * (b - a); };
-  const auto row = [&](std::int64_t j, std::int64_t k) { return mix(lattice(x, j, k), lattice(x + 1, j, k), u); };
+  const auto row = [&](std::int64_t j, std::int64_t k) { return mix(lattice_value(x, j, k), lattice_value(x + 1, j, k), u); };
   return 2 * mix(mix(row(y, z), row(y + 1, z), v), mix(row(y, z + 1), row(y + 1, z + 1), v), w) - 1;
 }
 

@@ -26,7 +26,7 @@ using place::PlacedMesh;
 using scene::Color;
 using Texel = std::array<std::uint8_t, 4>;
 
-constexpr double kContrast = 5;     // steps of 1/255 between neighbouring points that ask for a point between them
+constexpr double kMaxDiffuseStep = 5;     // steps of 1/255 between neighbouring points that ask for a point between them
 
 std::array<std::uint16_t, 3> deep_code(const Color& c) {
   const auto code = [](double v) { return static_cast<std::uint16_t>(std::lround(65535 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
@@ -42,7 +42,7 @@ struct Grid {
   std::uint64_t asked = 0;
 };
 
-struct Finished {
+struct BakedBlock {
   Box box;
   std::vector<Texel> texels;
   std::vector<std::array<std::uint16_t, 3>> deep;   ///< the same with 16 bits a channel, where asked for
@@ -82,8 +82,8 @@ class BlockBaker {
   }
 
   /// Its texels: light times colour. In: what lamps give, and what surfaces pass on (over π), if they do.
-  Finished finish(const LightGrid& lamps, const LightGrid* passed) {
-    Finished done;
+  BakedBlock finish(const LightGrid& lamps, const LightGrid* passed) {
+    BakedBlock done;
     done.asked = lamps.asked;
     const double fine = varies_ ? pattern_density(part_.room, part_.mesh, block_, part_.options) : 0;
     const auto points = [&](double length, int own, int other) { return std::max({own, other, (1 << level_of(length * fine)) + 1}); };
@@ -115,7 +115,7 @@ class BlockBaker {
   }
 
  private:
-  void cut_holes(Finished& done) const {
+  void cut_holes(BakedBlock& done) const {
     if (!place::has_holes(part_.room.looks[part_.mesh.look[block_.first]])) return;
     const int w = done.box.width, h = done.box.height;
     for (int j = 0; j < h; ++j)
@@ -203,7 +203,7 @@ class BlockBaker {
     }
     needed = needed || (seen > 0 && seen < count);
     for (int k = 0; k + 1 < count + (count & 1) && !needed; k += 2)
-      needed = difference(grid_.light[parents[k]], grid_.light[parents[k + 1]]) > kContrast;
+      needed = difference(grid_.light[parents[k]], grid_.light[parents[k + 1]]) > kMaxDiffuseStep;
     const std::size_t at = index(i, j);
     const Color mean = seen > 0 ? (1.0 / seen) * sum : Color{};
     grid_.light[at] = mean;
@@ -290,7 +290,7 @@ class BlockBaker {
 };
 
 // The part with vertices of its own for every block, and where they lie in the atlas.
-void rebuild(const std::vector<Block>& blocks, const Finished* finished, int width, int height, PlacedMesh& part,
+void rebuild(const std::vector<Block>& blocks, const BakedBlock* finished, int width, int height, PlacedMesh& part,
              std::vector<std::array<float, 2>>& uv) {
   const PlacedMesh own = part;
   part.floor.clear(), part.z.clear(), part.uv.clear(), part.pattern_position.clear();
@@ -316,7 +316,7 @@ void rebuild(const std::vector<Block>& blocks, const Finished* finished, int wid
   }
 }
 
-Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks, const std::vector<Finished>& finished,
+Diagnostic too_large(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks, const std::vector<BakedBlock>& finished,
                      int max_side) {
   std::size_t at = 0, worst = 0;
   std::uint64_t most = 0;
@@ -402,14 +402,14 @@ Result<Baked> bake(const place::PlacedRoom& room, const LightField& field, const
   }
   std::vector<LightGrid> passed;
   if (field.options.passes > 0) passed = pass_on({room, field, normals, blocks, lamps}, options.passing, executor, progress);
-  std::vector<Finished> finished(lamps.size());
+  std::vector<BakedBlock> finished(lamps.size());
   for (std::size_t p = 0; p < room.parts.size(); ++p)
     executor(blocks[p].size(), [&](std::size_t i) {
       const std::size_t at = first[p] + i;
       finished[at] = BlockBaker(parts[p], blocks[p][i]).finish(lamps[at], passed.empty() ? nullptr : &passed[at]);
     });
   std::vector<Box> boxes;
-  for (const Finished& f : finished) {
+  for (const BakedBlock& f : finished) {
     boxes.push_back(f.box);
     baked.counts.points += f.asked;
     baked.counts.texels += f.texels.size();

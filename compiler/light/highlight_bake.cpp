@@ -27,13 +27,13 @@ using place::PlacedMesh;
 using scene::Color;
 using trace::Direction;
 
-constexpr int kMaxLevel = 10;        // of a block: 1025 texels a side
-constexpr double kContrast = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
+constexpr int kMaxHighlightLevel = 10;        // of a block: 1025 texels a side
+constexpr double kMaxHighlightStep = 3;      // steps of 1/255 between neighbouring points that ask for a point between them
 constexpr double kGraze = 0.02;      // cosine: nothing is seen more from the side
 constexpr double kRough = 0.05;      // α: what metals as rough as that show is seen at single points as by many ways as in means
 constexpr std::size_t kBatch = 16;   // copies between two looks at the bound
 
-struct Finished {
+struct BakedHighlightBlock {
   std::size_t block = 0;
   Box box;
   std::vector<Color> shown;  ///< encoded 0…1
@@ -61,8 +61,8 @@ class PartShine {
   explicit PartShine(const Job& job)
       : job_(job), mesh_(job.room.parts[job.part]), normals_(job.normals), blocks_(job.baked.blocks[job.part]) {}
 
-  std::vector<Finished> run() {
-    std::vector<Finished> done;
+  std::vector<BakedHighlightBlock> run() {
+    std::vector<BakedHighlightBlock> done;
     known_.assign(normals_.vertices.size(), -1);
     at_vertex_.resize(normals_.vertices.size());
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -177,13 +177,13 @@ class PartShine {
     return most;
   }
 
-  std::optional<Finished> bake_block(std::size_t number, const place::Look& look) {
+  std::optional<BakedHighlightBlock> bake_block(std::size_t number, const place::Look& look) {
     const Block& block = blocks_[number];
     const auto pixels = pixels_of(block);
     if (!pixels) return std::nullopt;
     const BlockTexels base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number], whole_);
     const auto level = [](double cells) {
-      return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxLevel);
+      return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxHighlightLevel);
     };
     const int a = level((*pixels)[0] / job_.options.fine_px), b = level((*pixels)[1] / job_.options.fine_px);
     const int a0 = std::min(a, level((*pixels)[0] / job_.options.probe_px)), b0 = std::min(b, level((*pixels)[1] / job_.options.probe_px));
@@ -222,7 +222,7 @@ class PartShine {
     if (side < 2) return;
     const auto beside = [&](int i, int j, const Color& here) {
       return i >= 0 && j >= 0 && i < grid.w && j < grid.h && valid(block, grid, i, j) &&
-             difference(grid.light[grid.index(i, j)], here) > kContrast;
+             difference(grid.light[grid.index(i, j)], here) > kMaxHighlightStep;
     };
     std::vector<Color> soft = grid.light;
     for (int j = 0; j < grid.h; ++j)
@@ -263,7 +263,7 @@ class PartShine {
           needed = needed || grid.rough[parents[k]];
         }
         for (std::size_t k = 0; k + 1 < count && !needed; k += 2)
-          needed = difference(grid.light[parents[k]], grid.light[parents[k + 1]]) > kContrast;
+          needed = difference(grid.light[parents[k]], grid.light[parents[k + 1]]) > kMaxHighlightStep;
         Color& light = grid.light[grid.index(i, j)];
         light = mean;
         if (!needed) continue;
@@ -276,7 +276,7 @@ class PartShine {
   }
 
   // Diffuse light and highlight together, on as few texels as show them.
-  std::optional<Finished> finish(std::size_t number, const Block& block, const Grid& grid, const BlockTexels& base) const {
+  std::optional<BakedHighlightBlock> finish(std::size_t number, const Block& block, const Grid& grid, const BlockTexels& base) const {
     int w = grid.w, h = grid.h;
     std::vector<Color> sum(grid.light.size());
     bool any = whole_;
@@ -291,7 +291,7 @@ class PartShine {
     if (!any) return std::nullopt;
     while (w > 2 && even(block, sum, w, h, true)) sum = thinned(sum, w, h, true), w = (w + 1) / 2;
     while (h > 2 && even(block, sum, w, h, false)) sum = thinned(sum, w, h, false), h = (h + 1) / 2;
-    Finished done;
+    BakedHighlightBlock done;
     done.block = number;
     done.box.width = w, done.box.height = h;
     Grid shape;
@@ -346,7 +346,7 @@ class PartShine {
 /// A finished part of one copy on its way into the atlas.
 struct Shining {
   std::size_t copy = 0, part = 0;
-  std::vector<Finished> blocks;
+  std::vector<BakedHighlightBlock> blocks;
 };
 
 std::vector<std::size_t> nearest_first(const std::vector<cover::Copy>& copies, const place::Eye& eye) {
@@ -364,7 +364,7 @@ OwnUv own_uv(const Shining& shining, const Baked& baked) {
   const std::vector<Block>& blocks = baked.blocks[shining.part];
   std::vector<std::size_t> first(blocks.size() + 1, 0);
   for (std::size_t i = 0; i < blocks.size(); ++i) first[i + 1] = first[i] + (blocks[i].second < 0 ? 3 : 4);
-  for (const Finished& f : shining.blocks) {
+  for (const BakedHighlightBlock& f : shining.blocks) {
     const double x0 = f.box.x + 0.5, y0 = f.box.y + 0.5, x1 = f.box.x + f.box.width - 0.5, y1 = f.box.y + f.box.height - 0.5;
     const auto place = [&](double x, double y) {
       return std::array<float, 2>{static_cast<float>(x / baked.atlas.image.width), static_cast<float>(y / baked.atlas.image.height)};
@@ -416,7 +416,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
     });
     for (Shining& shining : batch) {
       if (shining.blocks.empty()) continue;
-      for (const Finished& f : shining.blocks) result.counts.texels += f.shown.size();
+      for (const BakedHighlightBlock& f : shining.blocks) result.counts.texels += f.shown.size();
       all.push_back(std::move(shining));
     }
   }
@@ -424,7 +424,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
   std::sort(all.begin(), all.end(), [](const Shining& a, const Shining& b) { return std::tie(a.copy, a.part) < std::tie(b.copy, b.part); });
   std::vector<Box*> boxes;
   for (Shining& shining : all)
-    for (Finished& f : shining.blocks) boxes.push_back(&f.box);
+    for (BakedHighlightBlock& f : shining.blocks) boxes.push_back(&f.box);
   const auto size = boxes.empty() ? std::nullopt : pack_below(boxes, baked.atlas.image.width, baked.atlas.image.height, options.max_side);
   if (!size) {
     result.counts.left_out = boxes.empty() ? 0 : copies.size();
@@ -433,7 +433,7 @@ Highlights bake_highlights(const place::PlacedRoom& room, const LightField& fiel
   enlarge(baked, (*size)[0], (*size)[1]);
   for (const Shining& shining : all) {
     if (result.own.empty() || result.own.back().copy != shining.copy) ++result.counts.copies;
-    for (const Finished& f : shining.blocks) put(f.box, f.shown, f.holes, baked.atlas);
+    for (const BakedHighlightBlock& f : shining.blocks) put(f.box, f.shown, f.holes, baked.atlas);
     result.own.push_back(own_uv(shining, baked));
   }
   return result;

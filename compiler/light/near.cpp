@@ -14,7 +14,7 @@ namespace {
 using geometry::Space;
 
 constexpr int kAcross = 12, kUp = 4;
-constexpr std::size_t kFew = 8;     // images: to look at them all costs no more than to look up which
+constexpr std::size_t kMaxImagesForFlatList = 8;     // images: to look at them all costs no more than to look up which
 
 int cell_of(double at, int cells) { return at > 0 ? static_cast<int>(std::min(at * cells, cells - 1.0)) : 0; }
 
@@ -23,7 +23,7 @@ int cell_of(double at, int cells) { return at > 0 ? static_cast<int>(std::min(at
 NearImages near_images(const LightField& field, const Executor& executor) {
   NearImages near;
   const Space space = field.scene.prism.space;
-  if (field.images.size() <= kFew || space == Space::spherical) {
+  if (field.images.size() <= kMaxImagesForFlatList || space == Space::spherical) {
     near.images[0].resize(field.images.size());
     std::iota(near.images[0].begin(), near.images[0].end(), 0u);
     return near;

@@ -235,7 +235,7 @@ class Net {
     std::vector<double> weights;
     std::vector<bool> linked;
     for (int k = from; k < to; ++k) {
-      const Chosen chosen = choose(guide, lattice(k));
+      const Chosen chosen = choose(guide, r3_point(k));
       if (chosen.weight <= 0) continue;
       rays.push_back(leaving(field, node.at, chosen.direction));
       weights.push_back(chosen.weight / options_.samples);

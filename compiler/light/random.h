@@ -18,7 +18,7 @@ namespace orbc::light {
 
 /// The k-th point of the unit cube, moved by `shift` (each part in [0, 1)): the lattice of the number that solves x⁴ = x + 1, whose every
 /// beginning is well spread (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
-[[nodiscard]] constexpr std::array<double, 3> lattice(int k, const std::array<double, 3>& shift = {0.5, 0.5, 0.5}) {
+[[nodiscard]] constexpr std::array<double, 3> r3_point(int k, const std::array<double, 3>& shift = {0.5, 0.5, 0.5}) {
   constexpr double kG = 1.22074408460575947536;
   std::array<double, 3> at{shift[0] + (k + 1) / kG, shift[1] + (k + 1) / (kG * kG), shift[2] + (k + 1) / (kG * kG * kG)};
   for (double& v : at) v -= static_cast<double>(static_cast<long>(v));
@@ -26,7 +26,7 @@ namespace orbc::light {
 }
 
 /// The same of the unit cube of six dimensions: of the number that solves x⁷ = x + 1.
-[[nodiscard]] constexpr std::array<double, 6> lattice_of_six(int k, const std::array<double, 6>& shift) {
+[[nodiscard]] constexpr std::array<double, 6> r6_point(int k, const std::array<double, 6>& shift) {
   constexpr double kG = 1.11277568427870622;
   std::array<double, 6> at = shift;
   double step = 1;

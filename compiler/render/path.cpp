@@ -64,7 +64,7 @@ Color passed_on(const place::PlacedRoom& room, const light::LightField& field, c
   const light::Guide guide = light::guide_at(field, from);
   Color sum;
   for (int k = 0; k < paths; ++k) {
-    const std::array<double, 6> u = light::lattice_of_six(chance.before * paths + k, chance.shift);
+    const std::array<double, 6> u = light::r6_point(chance.before * paths + k, chance.shift);
     sum = sum + walked(room, field, from, light::choose(guide, {u[0], u[1], u[2]}), {u[3], u[4], u[5]}, chance.random);
   }
   return (1.0 / paths) * sum;

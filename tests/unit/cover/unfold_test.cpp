@@ -15,7 +15,7 @@ using geometry::Space;
 
 namespace {
 
-place::PlacedRoom mirror_room(const std::string& notation, double reflectance = 0.9) {
+place::PlacedRoom room_of_mirrors(const std::string& notation, double reflectance = 0.9) {
   const auto orbifold = notation::parse(notation);
   REQUIRE(orbifold);
   auto room = room::realise(*orbifold);
@@ -32,7 +32,7 @@ place::PlacedRoom mirror_room(const std::string& notation, double reflectance = 
   return placed;
 }
 
-place::Eye eye_in(const place::PlacedRoom& room) {
+place::Eye eye_of(const place::PlacedRoom& room) {
   place::Eye eye;
   eye.room_from_eye = geometry::translation_by(room.room.space, 0.05, 0.03);
   eye.z = 0.5;
@@ -40,13 +40,13 @@ place::Eye eye_in(const place::PlacedRoom& room) {
 }
 
 std::vector<cover::Copy> copies_of(const place::PlacedRoom& room, const scene::CoverSpec& spec) {
-  const auto copies = cover::unfold(room, eye_in(room), spec);
+  const auto copies = cover::unfold(room, eye_of(room), spec);
   if (!copies) FAIL(to_text(copies.error()));
   return *copies;
 }
 
 std::string code_of(const place::PlacedRoom& room, const scene::CoverSpec& spec, const cover::UnfoldOptions& options = {}) {
-  const auto copies = cover::unfold(room, eye_in(room), spec, options);
+  const auto copies = cover::unfold(room, eye_of(room), spec, options);
   REQUIRE(!copies);
   return copies.error().front().code;
 }
@@ -54,7 +54,7 @@ std::string code_of(const place::PlacedRoom& room, const scene::CoverSpec& spec,
 }  // namespace
 
 TEST_CASE("the paper's room has 166 copies within four bounces", "[cover]") {
-  const auto room = mirror_room("*22222");
+  const auto room = room_of_mirrors("*22222");
   const auto copies = copies_of(room, {4, 0, 0, {}});
   CHECK(copies.size() == 166);
   CHECK(copies.front().word.empty());
@@ -63,7 +63,7 @@ TEST_CASE("the paper's room has 166 copies within four bounces", "[cover]") {
 }
 
 TEST_CASE("copies come by bounces, then by word, each once, with the weight of their mirrors", "[cover]") {
-  const auto room = mirror_room(GENERATE("*22222", "*2323", "*237", "*333", "*244", "*2222", "*222", "*235", "*33", "*"));
+  const auto room = room_of_mirrors(GENERATE("*22222", "*2323", "*237", "*333", "*244", "*2222", "*222", "*235", "*33", "*"));
   const auto copies = copies_of(room, {9, 0, 0, {}});
   std::set<std::pair<int, cover::Word>> seen;
   for (std::size_t i = 0; i < copies.size(); ++i) {
@@ -79,8 +79,8 @@ TEST_CASE("copies come by bounces, then by word, each once, with the weight of t
 }
 
 TEST_CASE("a wall belongs to the nearer copy exactly when it separates its copy from the eye", "[cover]") {
-  const auto room = mirror_room(GENERATE("*22222", "*2323", "*237", "*333", "*236", "*222", "*235", "**"));
-  const auto eye = eye_in(room);
+  const auto room = room_of_mirrors(GENERATE("*22222", "*2323", "*237", "*333", "*236", "*222", "*235", "**"));
+  const auto eye = eye_of(room);
   for (const auto& copy : copies_of(room, {8, 0, 0, {}})) {
     if (copy.sheet > 0) continue;
     const Point here = inverse(copy.cover_from_room) * (eye.room_from_eye * Point());
@@ -99,7 +99,7 @@ TEST_CASE("on the sphere the whole group comes back sheet after sheet", "[cover]
   } groups[] = {{"*222", 8, 3}, {"*235", 120, 15}, {"*33", 6, 3}, {"*", 2, 1}};
   for (const auto& group : groups) {
     CAPTURE(group.notation);
-    const auto room = mirror_room(group.notation);
+    const auto room = room_of_mirrors(group.notation);
     const auto copies = copies_of(room, {2 * group.half_turn, 0, 0, {}});
     // Sheets 0 and 1 are complete, of sheet 2 only the room itself is reached.
     CHECK(copies.size() == 2 * group.order + 1);
@@ -112,7 +112,7 @@ TEST_CASE("on the sphere the whole group comes back sheet after sheet", "[cover]
       if (copy.sheet != 1 || !copy.word.empty()) continue;
       CHECK(copy.nearer_walls == (std::uint64_t{1} << room.room.walls.size()) - 1);
     }
-    const auto planned = cover::plan(room, eye_in(room), {2 * group.half_turn, 0, 0, {}});
+    const auto planned = cover::plan(room, eye_of(room), {2 * group.half_turn, 0, 0, {}});
     REQUIRE(planned);
     CHECK(planned->copies == copies.size());
     CHECK(planned->sheets == 3);
@@ -120,18 +120,18 @@ TEST_CASE("on the sphere the whole group comes back sheet after sheet", "[cover]
 }
 
 TEST_CASE("a path ends before its weight falls below the least one", "[cover]") {
-  const auto room = mirror_room("*22222", 0.8);
+  const auto room = room_of_mirrors("*22222", 0.8);
   int most = 0;
   for (const auto& copy : copies_of(room, {100, 0.5, 0, {}})) most = std::max(most, copy.bounces);
   CHECK(most == 3);  // 0.8³ = 0.512, 0.8⁴ = 0.41
-  auto tinted = mirror_room("*22222", 0.8);
+  auto tinted = room_of_mirrors("*22222", 0.8);
   for (auto& mirror : tinted.mirrors) mirror.tint = {1, 0.5, 0.1};
   CHECK(copies_of(tinted, {100, 0.5, 0, {}}).back().bounces == 3);
   CHECK(copies_of(tinted, {100, 0.5, 0, {}}).back().weight.b == Approx(std::pow(0.08, 3)));
 }
 
 TEST_CASE("behind a plain wall there are no copies", "[cover]") {
-  auto room = mirror_room("*333");
+  auto room = room_of_mirrors("*333");
   room.mirrors.erase(room.mirrors.begin() + 1);
   const auto copies = copies_of(room, {10, 0, 0, {}});
   CHECK(copies.size() == 6);  // walls 1 and 3 make the dihedral group of order 6
@@ -141,13 +141,13 @@ TEST_CASE("behind a plain wall there are no copies", "[cover]") {
   }
   room.mirrors.clear();
   CHECK(copies_of(room, {10, 0, 0, {}}).size() == 1);
-  auto sphere = mirror_room("*235");
+  auto sphere = room_of_mirrors("*235");
   sphere.mirrors.erase(sphere.mirrors.begin());
   for (const auto& copy : copies_of(sphere, {100, 0, 0, {}})) CHECK(copy.sheet == 0);
 }
 
 TEST_CASE("the strip unfolds through its two mirrors only", "[cover]") {
-  const auto room = mirror_room("**");
+  const auto room = room_of_mirrors("**");
   const auto copies = copies_of(room, {7, 0, 0, {}});
   CHECK(copies.size() == 15);
   for (const auto& copy : copies) {
@@ -157,12 +157,12 @@ TEST_CASE("the strip unfolds through its two mirrors only", "[cover]") {
 }
 
 TEST_CASE("leaving out small copies loses no large one", "[cover]") {
-  const auto room = mirror_room(GENERATE("*22222", "*237", "*2323", "*333"));
+  const auto room = room_of_mirrors(GENERATE("*22222", "*237", "*2323", "*333"));
   const int bounces = room.room.space == Space::euclidean ? 60 : room.room.walls.size() == 3 ? 36 : 14;
   const auto all = copies_of(room, {bounces, 0, 0, {}}), some = copies_of(room, {bounces, 0, 20, {}});
   std::set<std::string> kept;
   for (const auto& copy : some) kept.insert(cover::to_string(copy.word));
-  const auto eye = eye_in(room);
+  const auto eye = eye_of(room);
   std::size_t large = 0;
   for (const auto& copy : all) {
     const Point centre = inverse(eye.room_from_eye) * (copy.cover_from_room * Point());
@@ -183,22 +183,22 @@ TEST_CASE("leaving out small copies loses no large one", "[cover]") {
 }
 
 TEST_CASE("rooms that the group does not tell go by beams, and are planned alike", "[cover]") {
-  auto mixed = mirror_room("*333");
+  auto mixed = room_of_mirrors("*333");
   mixed.mirrors[2].reflectance = 0.8;
-  auto storeys = mirror_room("*333");
+  auto storeys = room_of_mirrors("*333");
   storeys.mirrors.push_back({-2, {0, 1}, {0, 1}, 0.9, {1, 1, 1}});
-  CHECK(copies_of(mixed, {4, 0, 0, {}}).size() > copies_of(mirror_room("*333"), {4, 0, 0, {}}).size());
+  CHECK(copies_of(mixed, {4, 0, 0, {}}).size() > copies_of(room_of_mirrors("*333"), {4, 0, 0, {}}).size());
   for (const auto& room : {mixed, storeys}) {
     const auto copies = copies_of(room, {4, 0, 0, {}});
-    const auto planned = cover::plan(room, eye_in(room), {4, 0, 0, {}});
+    const auto planned = cover::plan(room, eye_of(room), {4, 0, 0, {}});
     REQUIRE(planned);
     CHECK(planned->copies == copies.size());
   }
 }
 
 TEST_CASE("the plan counts exactly and names what fits", "[cover]") {
-  const auto room = mirror_room("*22222");
-  const auto eye = eye_in(room);
+  const auto room = room_of_mirrors("*22222");
+  const auto eye = eye_of(room);
   const auto small = cover::plan(room, eye, {4, 0, 0, {}});
   REQUIRE(small);
   CHECK(small->copies == 166);
@@ -213,7 +213,7 @@ TEST_CASE("the plan counts exactly and names what fits", "[cover]") {
   options.max_copies = 200;
   CHECK(code_of(room, {1000, 0, 0, {}}, options) == "cover.too-much");
   const auto plain = [] {
-    auto closed = mirror_room("*22222");
+    auto closed = room_of_mirrors("*22222");
     closed.mirrors.pop_back();
     return closed;
   }();

@@ -13,7 +13,7 @@ using namespace orbc;
 
 namespace {
 
-driver::Opened opened(const std::string& more) {
+driver::Opened flat_room(const std::string& more) {
   const auto path = std::filesystem::temp_directory_path() / ("orbc-native-" + std::to_string(getpid()) + ".yaml");
   std::ofstream(path)
       << "orbc: 1\norbifold: \"*2222\"\nroom: {height: 0.9, walls: {all: {mirror: {reflectance: 0.8, tint: white}}}}\nobjects:\n"
@@ -33,7 +33,7 @@ double apart(const geometry::Vector3& a, const geometry::Vector3& b) { return ge
 }  // namespace
 
 TEST_CASE("every copy is lit by its own lamp and by its images in the mirrors, each with its weight", "[driver]") {
-  const driver::Opened scene = opened("bake: {lights: native, mirrors: 1}\ncover: {max_bounces: 1}\n");
+  const driver::Opened scene = flat_room("bake: {lights: native, mirrors: 1}\ncover: {max_bounces: 1}\n");
   const auto compiled = driver::compile(scene, {}, serial_executor());
   REQUIRE(compiled);
   CHECK(compiled->notes.empty());
@@ -61,7 +61,7 @@ TEST_CASE("every copy is lit by its own lamp and by its images in the mirrors, e
 }
 
 TEST_CASE("normals are apart at the edges of a box and alike on its faces", "[driver]") {
-  const driver::Opened scene = opened("bake: {lights: native, mirrors: 0}\ncover: {max_bounces: 0}\n");
+  const driver::Opened scene = flat_room("bake: {lights: native, mirrors: 0}\ncover: {max_bounces: 0}\n");
   const driver::Product product = driver::compile(scene, {}, serial_executor())->product;
   for (std::size_t i = 0; i < product.copies[0].index_count; i += 3) {
     geometry::Vector3 p[3], n[3];
@@ -76,7 +76,7 @@ TEST_CASE("normals are apart at the edges of a box and alike on its faces", "[dr
 }
 
 TEST_CASE("a scene without lamps has none to hang, and --view disk cannot have them", "[driver]") {
-  driver::Opened scene = opened("bake: {lights: native}\ncover: {max_bounces: 0}\n");
+  driver::Opened scene = flat_room("bake: {lights: native}\ncover: {max_bounces: 0}\n");
   driver::CompileOptions disk;
   disk.bend.view = bend::View::disk;
   const auto refused = driver::compile(scene, disk, serial_executor());

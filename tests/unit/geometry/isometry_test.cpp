@@ -12,7 +12,7 @@ using testing::Random;
 using testing::stretch;
 using Complex = std::complex<double>;
 
-constexpr double kEps = 0x1p-52;
+constexpr double kIsometryEps = 0x1p-52;
 
 TEST_CASE("isometries keep distances", "[geometry]") {
   Random random(1);
@@ -22,8 +22,8 @@ TEST_CASE("isometries keep distances", "[geometry]") {
       const Isometry map = random.isometry(space, far);
       const Point p = random.point(space, far), q = random.point(space, far), mp = map * p, mq = map * q;
       CHECK(std::fabs(distance(space, mp, mq) - distance(space, p, q)) <
-            64 * kEps * (stretch(space, mp) + stretch(space, mq)) * (space == Space::hyperbolic ? stretch(space, map * Point()) : 1));
-      CHECK(testing::off_surface(space, mp) < 8 * kEps);
+            64 * kIsometryEps * (stretch(space, mp) + stretch(space, mq)) * (space == Space::hyperbolic ? stretch(space, map * Point()) : 1));
+      CHECK(testing::off_surface(space, mp) < 8 * kIsometryEps);
     }
 }
 
@@ -118,14 +118,14 @@ TEST_CASE("translations move the origin without turning, also next to the antipo
     for (int i = 0; i < 500; ++i) {
       const Point p = random.point(space);
       const Isometry map = translation_to(space, p);
-      CHECK(distance(space, map * Point(), p) < 4 * kEps * stretch(space, p));
+      CHECK(distance(space, map * Point(), p) < 4 * kIsometryEps * stretch(space, p));
       // The axis goes through the origin and P: its direction at the origin is carried to its direction at P.
       const double rho = std::hypot(p.x, p.y);
       const Tangent start(0, p.x / rho, p.y / rho), end = direction_along(space, Point(), start, distance(space, Point(), p)),
                                                     got = map * start;
-      CHECK(std::fabs(got.w - end.w) + std::fabs(got.x - end.x) + std::fabs(got.y - end.y) < 16 * kEps * stretch(space, p));
+      CHECK(std::fabs(got.w - end.w) + std::fabs(got.x - end.x) + std::fabs(got.y - end.y) < 16 * kIsometryEps * stretch(space, p));
       CHECK(difference(map, translation_by(space, start.x * distance(space, Point(), p), start.y * distance(space, Point(), p))) <
-            16 * kEps * stretch(space, p));
+            16 * kIsometryEps * stretch(space, p));
     }
   for (const double gap : {1e-1, 1e-4, 1e-8, 1e-12, 1e-15}) {
     const Point p = {-std::cos(gap), std::sin(gap) * 0.6, std::sin(gap) * -0.8};
@@ -150,7 +150,7 @@ TEST_CASE("renormalised products of thousands of factors stay isometries", "[geo
       product = renormalised(product * step);
       if (i % 2) product = renormalised(product * inverse(step));
       if (std::abs(product.b) > 20) product = identity(space);
-      REQUIRE(std::fabs(std::norm(product.a) + curvature(space) * std::norm(product.b) - 1) < 8 * kEps * (1 + std::norm(product.b)));
+      REQUIRE(std::fabs(std::norm(product.a) + curvature(space) * std::norm(product.b) - 1) < 8 * kIsometryEps * (1 + std::norm(product.b)));
     }
   }
 }
@@ -158,7 +158,7 @@ TEST_CASE("renormalised products of thousands of factors stay isometries", "[geo
 TEST_CASE("far hyperbolic translations keep the digits that a matrix loses", "[geometry]") {
   for (double r = 1; r <= 15; r += 1) {
     const Isometry there = translation_by(Space::hyperbolic, r, 0), back = translation_by(Space::hyperbolic, -r, 0);
-    CHECK(difference(there * back, identity(Space::hyperbolic)) < kEps * std::exp(r));
+    CHECK(difference(there * back, identity(Space::hyperbolic)) < kIsometryEps * std::exp(r));
     CHECK(distance(Space::hyperbolic, there * Point(), Point()) == Approx(r).epsilon(1e-15));
   }
 }

@@ -12,7 +12,7 @@ using testing::off_surface;
 using testing::Random;
 using testing::stretch;
 
-constexpr double kEps = 0x1p-52;
+constexpr double kDistanceEps = 0x1p-52;
 
 double inner(Space space, const Ambient& p, const Ambient& q) {
   // The form that is positive on tangents.
@@ -29,7 +29,7 @@ TEST_CASE("distance is a metric that point_along walks at unit speed", "[geometr
       CHECK(distance(space, p, r) <= distance(space, p, q) + distance(space, q, r) + 1e-12);
       const double s = random.uniform(0, space == Space::spherical ? 3.1 : 4);
       const Point end = point_along(space, p, random.direction(space, p), s);
-      CHECK(std::fabs(distance(space, p, end) - s) < 64 * kEps * stretch(space, p) * stretch(space, end));
+      CHECK(std::fabs(distance(space, p, end) - s) < 64 * kDistanceEps * stretch(space, p) * stretch(space, end));
     }
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("small distances keep their leading digits", "[geometry]") {
   const Point p = point_from_log(Space::hyperbolic, {2, 1});
   const Tangent v = normalised_tangent(Space::hyperbolic, p, {0, 0.3, -1});
   for (const double s : {1e-3, 1e-6, 1e-9})
-    CHECK(std::fabs(distance(Space::hyperbolic, p, point_along(Space::hyperbolic, p, v, s)) - s) < 16 * kEps * p.w);
+    CHECK(std::fabs(distance(Space::hyperbolic, p, point_along(Space::hyperbolic, p, v, s)) - s) < 16 * kDistanceEps * p.w);
 }
 
 TEST_CASE("antipodes of the sphere are π apart", "[geometry]") {
@@ -112,7 +112,7 @@ TEST_CASE("normalised_tangent undoes a drift off the tangent plane", "[geometry]
       const Point p = random.point(space, space == Space::hyperbolic ? 10 : 2);
       const Tangent v = random.direction(space, p);
       const Tangent fixed = normalised_tangent(space, p, random.uniform(0.1, 10) * v);
-      CHECK(std::hypot(fixed.x - v.x, fixed.y - v.y) < 4 * kEps * stretch(space, p) * stretch(space, p));
+      CHECK(std::hypot(fixed.x - v.x, fixed.y - v.y) < 4 * kDistanceEps * stretch(space, p) * stretch(space, p));
     }
 }
 

@@ -43,7 +43,7 @@ TEST_CASE("what facets mirror is the integral of the microfacet model over all d
         double by_ways = 0;
         constexpr int kWays = 20000;
         for (int k = 0; k < kWays; ++k) {
-          const auto u = light::lattice(k);
+          const auto u = light::r3_point(k);
           const light::Glance way = light::glance(space, point, alpha, {u[0], u[1]});
           if (way.weight <= 0) continue;
           REQUIRE(trace::inner(space, way.direction, way.direction) == Approx(1));
@@ -72,7 +72,7 @@ TEST_CASE("a smooth metal mirrors as a mirror does", "[light]") {
   const trace::SurfacePoint point = met(Space::hyperbolic, 0.5);
   const trace::Direction expected = point.arriving + (2 * 0.5) * point.normal;
   for (int k = 0; k < 50; ++k) {
-    const auto u = light::lattice(k);
+    const auto u = light::r3_point(k);
     const light::Glance way = light::glance(Space::hyperbolic, point, 0.0005, {u[0], u[1]});
     CHECK(way.weight == Approx(1).margin(1e-4));
     CHECK(way.cosine == Approx(0.5).margin(0.02));

@@ -23,7 +23,7 @@ using geometry::Space;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 scene::Scene lit_scene(const std::string& orbifold, scene::LampKind kind, bool mirrors) {
   scene::Scene scene = scene::default_scene(notation::parse(orbifold).value());
@@ -63,9 +63,9 @@ double flux(const Lit& l) {
   double sum = 0;
   constexpr int kTurn = 120, kOut = 60, kAlong = 60;
   for (int i = 0; i < kTurn; ++i) {
-    const double phi = 2 * kPi * (i + 0.5) / kTurn, reach = place::reach(room, phi);
+    const double phi = 2 * kHalfTurn * (i + 0.5) / kTurn, reach = place::reach(room, phi);
     for (int j = 0; j < kOut; ++j) {
-      const double r = reach * (j + 0.5) / kOut, area = geometry::sin_k(room.space, r) * reach / kOut * 2 * kPi / kTurn;
+      const double r = reach * (j + 0.5) / kOut, area = geometry::sin_k(room.space, r) * reach / kOut * 2 * kHalfTurn / kTurn;
       const geometry::Point p = geometry::point_along(room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
       sum += area * (on_floor(l, p, 0, 1) + on_floor(l, p, height, -1));
     }
@@ -83,17 +83,17 @@ double flux(const Lit& l) {
 }  // namespace
 
 TEST_CASE("the falloff of E² is the inverse square, and all spaces agree with it near the lamp", "[light]") {
-  CHECK(light::geodesic_falloff(Space::euclidean, 2, 1.3, 0.01) == Approx(1 / (16 * kPi)));
+  CHECK(light::geodesic_falloff(Space::euclidean, 2, 1.3, 0.01) == Approx(1 / (16 * kHalfTurn)));
   for (const Space space : {Space::hyperbolic, Space::spherical})
-    CHECK(light::geodesic_falloff(space, 0.02, 0.015, 0.001) == Approx(1 / (4 * kPi * 0.0004)).epsilon(1e-4));
-  CHECK(light::geodesic_falloff(Space::euclidean, 1e-9, 0, 0.05) == Approx(1 / (4 * kPi * 0.0025)));
+    CHECK(light::geodesic_falloff(space, 0.02, 0.015, 0.001) == Approx(1 / (4 * kHalfTurn * 0.0004)).epsilon(1e-4));
+  CHECK(light::geodesic_falloff(Space::euclidean, 1e-9, 0, 0.05) == Approx(1 / (4 * kHalfTurn * 0.0025)));
 }
 
 TEST_CASE("the focus at the antipode is as bright as a lamp of that radius allows, and no more", "[light]") {
-  const double at = light::geodesic_falloff(Space::spherical, kPi, kPi, 0.05),
-               beside = light::geodesic_falloff(Space::spherical, kPi - 0.05, kPi - 0.05, 0.05);
+  const double at = light::geodesic_falloff(Space::spherical, kHalfTurn, kHalfTurn, 0.05),
+               beside = light::geodesic_falloff(Space::spherical, kHalfTurn - 0.05, kHalfTurn - 0.05, 0.05);
   CHECK(std::isfinite(at));
-  CHECK(at == Approx(1 / (4 * kPi * kPi * std::sin(0.05))).epsilon(0.01));
+  CHECK(at == Approx(1 / (4 * kHalfTurn * kHalfTurn * std::sin(0.05))).epsilon(0.01));
   CHECK(at == Approx(beside).epsilon(0.05));
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("the falloff counts the geodesics that reach a small patch", "[light]"
     double expected = 0;
     for (int i = 0; i < 100; ++i) {
       const double s = 0.9 + (i + 0.5) * 0.001, l = std::hypot(s, 0.5);
-      expected += light::geodesic_falloff(space, l, s, 0.01) * (0.5 / l) * 2 * kPi * geometry::sin_k(space, s) * 0.001;
+      expected += light::geodesic_falloff(space, l, s, 0.01) * (0.5 / l) * 2 * kHalfTurn * geometry::sin_k(space, s) * 0.001;
     }
     CHECK(static_cast<double>(arrived) / kCount == Approx(expected).epsilon(0.01));
   }
@@ -138,7 +138,7 @@ TEST_CASE("light over a mirror is the light of an image behind it, times the ref
   for (int w = 0; w < 4; ++w) {
     const geometry::Point image = room::reflection_in_wall(straight.room.room, w) * lamp.floor;
     const double l = std::hypot(geometry::distance(Space::euclidean, image, p), lamp.z);
-    expected += 0.9 * 10 / (4 * kPi * l * l) * lamp.z / l;
+    expected += 0.9 * 10 / (4 * kHalfTurn * l * l) * lamp.z / l;
   }
   CHECK(on_floor(once, p, 0, 1) == Approx(expected).epsilon(1e-9));
 }
@@ -152,7 +152,7 @@ TEST_CASE("on a half sphere light comes back from the mirror, past the antipode"
   double expected = 0;
   const double d = geometry::distance(Space::spherical, p, lamp.floor);
   const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.room.room, 0) * lamp.floor);
-  const std::pair<double, double> ways[] = {{d, 1}, {2 * kPi - d, 0.81}, {2 * kPi + d, 0.81}, {e, 0.9}, {2 * kPi - e, 0.9}};
+  const std::pair<double, double> ways[] = {{d, 1}, {2 * kHalfTurn - d, 0.81}, {2 * kHalfTurn + d, 0.81}, {e, 0.9}, {2 * kHalfTurn - e, 0.9}};
   for (const auto& [arc, weight] : ways) {
     const double length = std::hypot(arc, lamp.z);
     expected += weight * 10 * light::geodesic_falloff(Space::spherical, length, arc, 0.02) * lamp.z / length;
@@ -203,10 +203,10 @@ TEST_CASE("the samples of a pixel together see the light that one alone sees, wi
           const geometry::Point p =
               geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
           const light::LightPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
-          const double whole = light::irradiance(l.field, point).r / kPi;
+          const double whole = light::irradiance(l.field, point).r / kHalfTurn;
           double sum = 0;
           for (int s = 0; s < samples; ++s) {
-            const double one = light::irradiance(l.field, point, light::Turn{s, samples}).r / kPi;
+            const double one = light::irradiance(l.field, point, light::Turn{s, samples}).r / kHalfTurn;
             sum += one, spread = std::max(spread, std::fabs(one - whole));
           }
           most = std::max(most, std::fabs(sum / samples - whole));
@@ -221,7 +221,7 @@ TEST_CASE("the samples of a pixel together see the light that one alone sees, wi
 
 TEST_CASE("a white surface under E = π shows as white", "[light]") {
   light::LightField field;
-  const scene::Color shown = light::radiance_out(field, {}, {1, 1, 1}, {kPi, kPi / 2, 0});
+  const scene::Color shown = light::radiance_out(field, {}, {1, 1, 1}, {kHalfTurn, kHalfTurn / 2, 0});
   CHECK(shown.r == Approx(1));
   CHECK(shown.g == Approx(0.5));
 }

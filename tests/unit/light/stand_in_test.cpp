@@ -15,13 +15,13 @@ using namespace orbc;
 
 namespace {
 
-struct Lit {
+struct LitStandIn {
   scene::Scene scene;
   place::PlacedRoom room;
   light::LightField field;
 };
 
-Lit lit(const std::string& orbifold, int passes = 0) {
+LitStandIn lit(const std::string& orbifold, int passes = 0) {
   scene::Scene scene = scene::default_scene(notation::parse(orbifold).value());
   scene.objects.resize(1);
   scene.objects[0].shape = scene::CylinderSpec{0.05, 0.2};
@@ -31,7 +31,7 @@ Lit lit(const std::string& orbifold, int passes = 0) {
   lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
   lamp.place.z = 0.6;
   scene.lamps = {lamp};
-  Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
+  LitStandIn result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
   light::LightOptions options;
   options.cut = 0;
   options.passes = passes;
@@ -42,7 +42,7 @@ Lit lit(const std::string& orbifold, int passes = 0) {
 }  // namespace
 
 TEST_CASE("a point of a coarser level is lit as the surface just there, not as its far side", "[light]") {
-  const Lit l = lit(GENERATE("*222", "*333", "*22222"));
+  const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"));
   const geometry::Space space = l.room.room.space;
   std::size_t sides = 0;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
@@ -64,7 +64,7 @@ TEST_CASE("a point of a coarser level is lit as the surface just there, not as i
 
 TEST_CASE("a level that is the part itself has its light", "[light]") {
   const int passes = GENERATE(0, 6);
-  const Lit l = lit(GENERATE("*222", "*333", "*22222"), passes);
+  const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"), passes);
   const auto is_cylinder = [](const place::PlacedMesh& part) { return part.kind == place::PartKind::object && light::lamp_of(part) < 0; };
   const auto p = static_cast<std::size_t>(std::find_if(l.room.parts.begin(), l.room.parts.end(), is_cylinder) - l.room.parts.begin());
   place::PlacedRoom both = l.room;
@@ -90,7 +90,7 @@ TEST_CASE("a level that is the part itself has its light", "[light]") {
 }
 
 TEST_CASE("frames are lit at their mirrors as just before them", "[light]") {
-  const Lit l = lit(GENERATE("*222", "*333", "*22222"));
+  const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"));
   std::size_t asked = 0, off = 0;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
     const place::PlacedMesh& part = l.room.parts[p];

@@ -23,7 +23,7 @@ scene::Scene bare_scene(const std::string& notation) {
   return scene;
 }
 
-PlacedRoom furnished(const scene::Scene& scene) {
+PlacedRoom interior_of(const scene::Scene& scene) {
   return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value()).value().room;
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("the camera looks at the middle of an object's bounding box", "[place]
   scene.objects.push_back(sphere_at(0.3, 40, 0.2, 0.1));
   scene.camera.place.floor = scene::AtPolar{0.3, Angle::from_degrees(200)};
   scene.camera.look_at.value = scene::LookAtObject{"ball"};
-  const PlacedRoom placed = furnished(scene);
+  const PlacedRoom placed = interior_of(scene);
   const Eye eye = make_eye(scene, placed).value();
   const Point ball = locate(scene.objects[0].place, placed.room).value();
   const auto flat = geometry::log_from_point(placed.room.space, geometry::inverse(eye.room_from_eye) * ball);
@@ -163,7 +163,7 @@ TEST_CASE("an eye outside the room, in a wall or in a body is refused", "[place]
     CAPTURE(notation);
     scene::Scene scene = bare_scene(notation);
     scene.objects.push_back(sphere_at(0.2, 100, 0.3, 0.15));
-    const PlacedRoom placed = furnished(scene);
+    const PlacedRoom placed = interior_of(scene);
     const auto code_at = [&](double r, double degrees, double z) {
       scene.camera.place.floor = scene::AtPolar{r, Angle::from_degrees(degrees)};
       scene.camera.place.z = z;
@@ -196,7 +196,7 @@ TEST_CASE("an eye in a column from floor to ceiling is inside it", "[place]") {
   beam.to.z = 1, beam.width = 0.1;
   column.shape = beam;
   scene.objects = {column};
-  const PlacedRoom placed = furnished(scene);
+  const PlacedRoom placed = interior_of(scene);
   scene.camera.place.floor = scene::AtPolar{0.31, Angle::from_degrees(60)};
   CHECK(code_of(scene, placed) == "place.eye-inside-object");
   scene.camera.place.floor = scene::AtPolar{0.4, Angle::from_degrees(60)};
@@ -210,7 +210,7 @@ TEST_CASE("the eye in the hole of a ring is not inside it, wherever the vertical
   ring.shape = scene::TorusSpec{0.2, 0.08};
   ring.place.z = 0.4;
   scene.objects.push_back(ring);
-  const PlacedRoom placed = furnished(scene);
+  const PlacedRoom placed = interior_of(scene);
   const PlacedMesh& mesh = placed.parts.back();
   int inside = 0;
   // Straight under and over vertices and the middles of edges: parity must hold there too.

@@ -31,7 +31,7 @@ scene::Scene furnace(const char* notation, const std::array<double, 3>& reflecta
 
 place::PlacedRoom room_of(const scene::Scene& s) { return place::furnish(s, *room::realise(s.orbifold))->room; }
 
-place::Eye eye_in(const place::PlacedRoom& room) {
+place::Eye furnace_eye(const place::PlacedRoom& room) {
   place::Eye eye;
   eye.room_from_eye = geometry::translation_by(room.room.space, 0.06 * room.room.inradius, 0.03 * room.room.inradius);
   eye.z = 0.2;
@@ -43,7 +43,7 @@ render::Film draw(const place::PlacedRoom& room, int bounces) {
   render::DrawOptions options;
   options.max_bounces = bounces;
   options.max_depth = 1000;
-  return render::draw(trace::prepare(room), eye_in(room), options, serial_executor());
+  return render::draw(trace::prepare(room), furnace_eye(room), options, serial_executor());
 }
 
 /// The same sum by a way of its own: in long double, the geodesic unreflected and the lines of the walls moved instead; storeys by
@@ -156,7 +156,7 @@ TEST_CASE("mirrors that differ in reflectance and glow are summed up in the orde
   for (const char* notation : {"*222", "*233", "*2222", "*333", "*22222", "*2323"}) {
     const place::PlacedRoom room =
         room_of(furnace(notation, {0.7, 0.35, 0.5}, {scene::Color{0.5, 0, 0.1}, scene::Color{0, 0.4, 0.1}, scene::Color{0.1, 0.1, 0.6}}));
-    const place::Eye eye = eye_in(room);
+    const place::Eye eye = furnace_eye(room);
     const render::Film film = draw(room, 14);
     double worst = 0, least = 9, most = 0;
     for (int y = 0; y < eye.height; ++y)
