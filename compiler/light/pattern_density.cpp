@@ -25,7 +25,8 @@ double difference(const Color& a, const Color& b) {
 
 // Whether texels at that density, looked up in between, would show the pattern wrongly at more than a few of some places.
 bool blurs(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const Block& block, const BakeOptions& options, double density) {
-  const int most = 1 << kMaxPatternHalvings, cells_u = 1 << level_of(block.length_u * density), cells_v = 1 << level_of(block.length_v * density);
+  const int most = 1 << kMaxPatternHalvings;
+  const int cells_u = 1 << level_of(block.length_u * density), cells_v = 1 << level_of(block.length_v * density);
   if (cells_u >= most && cells_v >= most) return false;
   const auto albedo = [&](double u, double v) {
     if (block.second < 0 && u + v > 1) u = 1 - v;   // beyond the long side of a single triangle: as good as on it

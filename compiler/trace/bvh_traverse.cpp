@@ -2,7 +2,8 @@
 // Float decides only what surely misses and what is surely met once; everything else is put to `intersect` in double (see bvh.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "compiler/trace/bvh_traverse.cpp"
-// AVX-512 was measured to gain nothing here (a node has eight children). SSSE3 without SSE4 is a processor of 2006: it takes the SSE2 kernel.
+// AVX-512 was measured to gain nothing here (a node has eight children). SSSE3 without SSE4 is a processor of 2006:
+// it takes the SSE2 kernel.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL)
 #include <hwy/foreach_target.h>
 #include <hwy/cache_control.h>

@@ -22,7 +22,8 @@ TEST_CASE("isometries keep distances", "[geometry]") {
       const Isometry map = random.isometry(space, far);
       const Point p = random.point(space, far), q = random.point(space, far), mp = map * p, mq = map * q;
       CHECK(std::fabs(distance(space, mp, mq) - distance(space, p, q)) <
-            64 * kIsometryEps * (stretch(space, mp) + stretch(space, mq)) * (space == Space::hyperbolic ? stretch(space, map * Point()) : 1));
+            64 * kIsometryEps * (stretch(space, mp) + stretch(space, mq)) *
+                (space == Space::hyperbolic ? stretch(space, map * Point()) : 1));
       CHECK(testing::off_surface(space, mp) < 8 * kIsometryEps);
     }
 }
@@ -150,7 +151,8 @@ TEST_CASE("renormalised products of thousands of factors stay isometries", "[geo
       product = renormalised(product * step);
       if (i % 2) product = renormalised(product * inverse(step));
       if (std::abs(product.b) > 20) product = identity(space);
-      REQUIRE(std::fabs(std::norm(product.a) + curvature(space) * std::norm(product.b) - 1) < 8 * kIsometryEps * (1 + std::norm(product.b)));
+      REQUIRE(std::fabs(std::norm(product.a) + curvature(space) * std::norm(product.b) - 1) <
+              8 * kIsometryEps * (1 + std::norm(product.b)));
     }
   }
 }

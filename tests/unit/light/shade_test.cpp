@@ -152,7 +152,8 @@ TEST_CASE("on a half sphere light comes back from the mirror, past the antipode"
   double expected = 0;
   const double d = geometry::distance(Space::spherical, p, lamp.floor);
   const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.room.room, 0) * lamp.floor);
-  const std::pair<double, double> ways[] = {{d, 1}, {2 * kHalfTurn - d, 0.81}, {2 * kHalfTurn + d, 0.81}, {e, 0.9}, {2 * kHalfTurn - e, 0.9}};
+  const std::pair<double, double> ways[] = {
+      {d, 1}, {2 * kHalfTurn - d, 0.81}, {2 * kHalfTurn + d, 0.81}, {e, 0.9}, {2 * kHalfTurn - e, 0.9}};
   for (const auto& [arc, weight] : ways) {
     const double length = std::hypot(arc, lamp.z);
     expected += weight * 10 * light::geodesic_falloff(Space::spherical, length, arc, 0.02) * lamp.z / length;

@@ -1,0 +1,48 @@
+// Commands that draw.
+#include <CLI/CLI.hpp>
+
+#include "compiler/cli/define.h"
+
+namespace orbc::cli {
+
+void define_render(Program& program) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  RenderArguments& a = *arguments;
+  CLI::App* c = program.app.add_subcommand("render", "Draw a scene in one go");
+  add_scene(*c, a.compile.scene);
+  c->add_option("-o,--output", a.compile.output, "The picture (PNG)")->required()->type_name("FILE");
+  c->add_option("--engine", a.engine, "Who draws: povray, blender or tracer")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"povray", "blender", "tracer"}))
+      ->type_name("NAME");
+  c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");
+  c->add_option("--pass", a.pass, "Tracer: what to draw; an .exr holds all of them")->capture_default_str()
+      ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
+  add_compile_options(*c, a.compile);
+  c->footer(
+      "Examples:\n  orbc render s.yaml -o s.png\n  orbc render s.yaml -o s.png --engine povray --samples 9\n  orbc render s.yaml -o "
+      "pano.png --projection panorama --size 2048x1024");
+  add_common(*c, program.common);
+  program.commands.push_back({c, [arguments](const Common& common) { return render(*arguments, common); }});
+}
+
+void define_trace(Program& program) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  RenderArguments& a = *arguments;
+  CLI::App* c = program.app.add_subcommand("trace", "Draw the reference picture: geodesic rays and real mirrors, no copies");
+  add_scene(*c, a.compile.scene);
+  add_quality(*c, a.compile.scene,
+              "Paths of each sample for light that surfaces pass on, instead of the scene's: draft (2), normal (8) or fine (32)");
+  c->add_option("-o,--output", a.compile.output, "The picture: .png, or .exr with all passes in floating point")
+      ->required()
+      ->type_name("FILE");
+  c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");
+  c->add_option("--pass", a.pass, "What to draw; an .exr holds all of them")->capture_default_str()
+      ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
+  c->footer(
+      "Examples:\n  orbc trace s.yaml -o s.png --samples 16\n  orbc trace s.yaml -o s.exr\n  orbc trace s.yaml -o depth.png --pass depth");
+  add_common(*c, program.common);
+  program.commands.push_back({c, [arguments](const Common& common) { return render(*arguments, common); }});
+}
+
+}  // namespace orbc::cli
