@@ -1,6 +1,6 @@
 # Flags of every target: no contraction (watertight edges need bitwise equal evaluations), no fast-math.
 add_library(orbc_flags INTERFACE)
-target_include_directories(orbc_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_include_directories(orbc_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/orbc>)
 target_compile_options(orbc_flags INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-ffp-contract=off>)
 if(ORBC_WERROR AND NOT ORBC_SANITIZE)  # sanitizers make GCC 12 warn of what is not there
   target_compile_options(orbc_flags INTERFACE $<BUILD_INTERFACE:-Werror>)
@@ -15,38 +15,38 @@ if(ORBC_SANITIZE)
   set_source_files_properties(compiler/trace/bvh_traverse.cpp PROPERTIES COMPILE_OPTIONS "-fno-sanitize=all;-O2;-g0")
 endif()
 set_target_properties(orbc_flags PROPERTIES EXPORT_NAME flags)
-install(TARGETS orbc_flags EXPORT orbc)
+install(TARGETS orbc_flags EXPORT orbc COMPONENT development)
 
 # One translation unit a room: parsing headers is two thirds of a build of 180 files (486 -> 140 s of processor time in eight rooms, measured).
 # Files that bring compile options of their own, and those that Highway compiles again for each instruction set, stay apart.
-# Sanitizers build file by file, so that includes stay honest.
 function(orbc_unity target)
-  if(ORBC_UNITY AND NOT ORBC_SANITIZE)
+  if(ORBC_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   endif()
 endfunction()
 set_source_files_properties(compiler/trace/bvh_traverse.cpp compiler/bend/log_map_simd.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 # orbc_room(bend USES geometry place cover LIBRARIES hwy::hwy): the folder compiler/bend becomes the target orbc::bend.
-# FOLDER names another place (exporters/pov). Every .cpp in the folder belongs to the room.
+# FOLDER names another place (exporters/pov). Every .cpp in the folder belongs to the room. INTERNAL rooms are not installed for others.
 function(orbc_room name)
-  cmake_parse_arguments(ROOM "" "FOLDER" "USES;LIBRARIES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "INTERNAL" "FOLDER" "USES;LIBRARIES;PRIVATE" ${ARGN})
   if(NOT ROOM_FOLDER)
     set(ROOM_FOLDER compiler/${name})
   endif()
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${ROOM_FOLDER}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
-  list(TRANSFORM ROOM_USES PREPEND orbc::)
-  if(sources)
-    add_library(orbc_${name} STATIC ${sources})
-    orbc_unity(orbc_${name})
-    target_link_libraries(orbc_${name} PUBLIC orbc_flags ${ROOM_USES} ${ROOM_LIBRARIES} PRIVATE ${ROOM_PRIVATE})
-  else()
-    add_library(orbc_${name} INTERFACE)
-    target_link_libraries(orbc_${name} INTERFACE orbc_flags ${ROOM_USES} ${ROOM_LIBRARIES})
+  if(NOT sources)
+    message(FATAL_ERROR "room ${name}: there is no source in ${ROOM_FOLDER}/")
   endif()
+  list(TRANSFORM ROOM_USES PREPEND orbc::)
+  add_library(orbc_${name} STATIC ${sources})
+  orbc_unity(orbc_${name})
+  target_link_libraries(orbc_${name} PUBLIC orbc_flags ${ROOM_USES} ${ROOM_LIBRARIES} PRIVATE ${ROOM_PRIVATE})
   add_library(orbc::${name} ALIAS orbc_${name})
   set_target_properties(orbc_${name} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS orbc_${name} EXPORT orbc ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${ROOM_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${ROOM_FOLDER} FILES_MATCHING PATTERN "*.h")
+  if(NOT ROOM_INTERNAL)
+    install(TARGETS orbc_${name} EXPORT orbc ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    install(DIRECTORY ${CMAKE_SOURCE_DIR}/${ROOM_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orbc/${ROOM_FOLDER} COMPONENT development
+      FILES_MATCHING PATTERN "*.h")
+  endif()
 endfunction()

@@ -25,3 +25,7 @@ orbc_system_test(system_metals metals.py 600 render)
 orbc_system_test(system_examples examples.py 1800 render)
 orbc_system_test(system_command_line command_line.py 300 fast)
 orbc_system_test(system_verify_rooms verify_rooms.py 1800 render slow)
+orbc_system_test(system_scripts scripts.py 300 fast)
+if(NOT ORBC_SANITIZE)  # packages are made of what people use
+  orbc_system_test(system_package package.py 900 render)
+endif()

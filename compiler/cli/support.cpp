@@ -93,11 +93,11 @@ driver::Overrides overrides_of(const SceneArguments& arguments) {
 std::string shipped_script(const std::string& name) {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const std::filesystem::path folders[] = {program.parent_path().parent_path() / "share/orbc",
-                                           program.parent_path().parent_path().parent_path() / "scripts",
-                                           std::filesystem::path(ORBC_SOURCE_DIR) / "scripts"};
-  for (const std::filesystem::path& folder : folders)
-    if (std::filesystem::exists(folder / name, ignored)) return (folder / name).string();
+  // Installed as the build said, or beside a build folder's bin/: share/orbc stands in both.
+  for (const char* data : {ORBC_DATA_FROM_PROGRAM, "../share/orbc"}) {
+    const std::filesystem::path found = (program.parent_path() / data / name).lexically_normal();
+    if (std::filesystem::exists(found, ignored)) return found.string();
+  }
   throw std::runtime_error("cannot find " + name + ", which belongs to orbc; was it moved without its share/orbc folder?");
 }
 

@@ -3,12 +3,11 @@ import json
 import os
 import pathlib
 
-from helpers import ROOT, SCRIPTS, SKIP, check, finish, folder, need, run, sample
+from helpers import ROOT, SCRIPTS, check, finish, folder, need, run, sample, skip
 
 need('node')
 if not (ROOT / 'node_modules/gltf-validator').is_dir():
-    print('skipped: npm install has not been run')
-    raise SystemExit(SKIP)
+    skip('npm install has not been run')
 VALIDATE = ['node', SCRIPTS / 'validate_gltf.mjs']
 
 with folder() as where:
