@@ -197,6 +197,26 @@ def set_render(scene, options, picture_size):
     cycles.transparent_max_bounces = 256  # holes behind holes
 
 
+# What a PNG needs for its pixels and their colours; the rest are dates, names and notes, with which no two pictures are the same.
+KEPT_CHUNKS = (b'IHDR', b'PLTE', b'tRNS', b'gAMA', b'cHRM', b'sRGB', b'iCCP', b'sBIT', b'IDAT', b'IEND')
+
+
+def strip_dates(picture):
+    """Leaves the pixels of a PNG file alone: same scene, same bytes."""
+    kept = picture + '.kept'
+    with open(picture, 'rb') as source, open(kept, 'wb') as target:
+        target.write(source.read(8))
+        while True:
+            head = source.read(8)
+            if len(head) < 8:
+                break
+            length, kind = int.from_bytes(head[:4], 'big'), head[4:]
+            body = source.read(length + 4)
+            if kind in KEPT_CHUNKS:
+                target.write(head + body)
+    os.replace(kept, picture)
+
+
 def deliver(picture, out):
     if out.startswith('fd:'):
         with open(picture, 'rb') as file, os.fdopen(int(out[3:]), 'wb') as target:
@@ -227,6 +247,7 @@ def draw(arguments):
         bpy.ops.render.render(write_still=True)
         if not os.path.exists(scene.render.filepath):
             raise Failure(3, 'Blender wrote no picture')
+        strip_dates(scene.render.filepath)
         deliver(scene.render.filepath, options.output)
 
 

@@ -13,6 +13,7 @@ struct Common {
   bool verbose = false;
   bool json = false;                ///< the result as JSON on standard output
   int threads = 0;                  ///< 0 = all cores
+  std::vector<std::string> given;   ///< options on the command line, named without dashes
 };
 
 struct InfoArguments {
@@ -51,7 +52,7 @@ struct CompileArguments {
   std::string output;
   std::string format;               ///< empty = by the ending of `output`
   std::string view = "eye";
-  double tolerance = 0.25;
+  double tolerance = 0.5;           ///< pixels
   std::optional<std::uint64_t> max_triangles;
   std::string max_memory = "4GiB";
   bool no_lod = false;              ///< every copy in all detail
@@ -61,7 +62,6 @@ struct CompileArguments {
   int max_atlas = 16384;            ///< pixels a side
   std::string model = "disk";       ///< svg: disk, klein, plane
   std::string colour = "parity";    ///< svg: parity, length
-  bool tell_notes = false;          ///< say what compiling has found, even if quiet
   bool plan = false;                ///< only say what it would take
 };
 struct RenderArguments {

@@ -3,21 +3,26 @@
 #include <filesystem>
 
 #include "compiler/cli/commands.h"
+#include "compiler/cli/effects.h"
+#include "compiler/cli/export.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/progress_bar.h"
+#include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
 #include "compiler/driver/compile.h"
+#include "compiler/driver/native.h"
 #include "compiler/driver/threads.h"
 #include "exporters/gltf/write_gltf.h"
 #include "exporters/pov/write_pov.h"
 #include "exporters/svg/write_svg.h"
 
 namespace orbc::cli {
+
 namespace {
 
 std::string format_of(const CompileArguments& a) {
   if (!a.format.empty()) return a.format;
-  const std::string ending = std::filesystem::path(a.output).extension().string();
+  const std::string ending = lower_case(std::filesystem::path(a.output).extension().string());
   for (const char* known : {"pov", "glb", "gltf", "svg"})
     if (ending == std::string(".") + known) return known;
   throw UsageError(a.output == "-"
@@ -30,13 +35,15 @@ std::string stem_of(const std::string& output) {
   return stem.empty() ? "scene" : stem;
 }
 
-// The main output last: whoever sees it may rely on the files it names.
-void write_files(const std::vector<driver::File>& files, const std::string& output) {
+// The main output last: whoever sees it may rely on the files it names. Makes: how many bytes that one has.
+std::uint64_t write_files(const std::vector<driver::File>& files, const std::string& output) {
   const std::filesystem::path folder = std::filesystem::path(output).parent_path();
   for (const driver::File& file : files)
     if (!file.name.empty()) write_output((folder / file.name).string(), file.bytes);
+  std::uint64_t bytes = 0;
   for (const driver::File& file : files)
-    if (file.name.empty()) write_output(output, file.bytes);
+    if (file.name.empty()) write_output(output, file.bytes), bytes = file.bytes.size();
+  return bytes;
 }
 
 driver::Tiling::Model model_of(const std::string& name) {
@@ -47,8 +54,10 @@ int write_tiling(const driver::Opened& opened, const CompileArguments& a, const 
   const auto tiling =
       driver::tile(opened, model_of(a.model), a.colour == "length" ? driver::Tiling::Colouring::length : driver::Tiling::Colouring::parity);
   if (!tiling) return print(tiling.error(), common), kSceneWrong;
-  write_files(svg::write_svg(*tiling), a.output);
-  if (!common.quiet) fmt::print(stderr, "{}: {} copies of {}\n", a.output, tiling->copies.size(), tiling->title);
+  const std::uint64_t bytes = write_files(svg::write_svg(*tiling), a.output);
+  print_result({{"output", a.output}, {"format", "svg"}, {"bytes", bytes}, {"orbifold", tiling->title}, {"copies", tiling->copies.size()}},
+               opened.notes, common);
+  if (!common.quiet) fmt::print(stderr, "{}: {} copies of {}\n", shown(a.output), tiling->copies.size(), tiling->title);
   return kDone;
 }
 
@@ -67,23 +76,20 @@ std::vector<driver::File> exported(const driver::Product& product, const std::st
   return gltf::write_gltf(product, options);
 }
 
-void print_notes(const driver::Compiled& compiled, const std::string& format, const CompileArguments& a, const Common& common) {
+Diagnostics notes_of(const driver::Compiled& compiled, const std::string& format) {
   Diagnostics notes = compiled.notes;
   if (compiled.product.native && format != "pov")
     notes.push_back(make_warning("gltf.native-lights-shared",
                                  "lamps of glTF are points and cones that light every copy, not their own alone; ambient light is left out",
                                  "draw it with POV-Ray, or bake the light (`lights: baked`)"));
-  Common told = common;
-  told.quiet = common.quiet && !a.tell_notes;
-  print(notes, told);
+  return notes;
 }
-
-}  // namespace
 
 driver::CompileOptions compile_options(const CompileArguments& a) {
   driver::CompileOptions options;
   options.bend.view = a.view == "disk" ? bend::View::disk : bend::View::eye;
-  options.bend.tolerance_px = a.tolerance;
+  options.bend.tolerance_px = a.tolerance / driver::kSharers;
+  options.bend.told = driver::kSharers;
   if (a.max_triangles && options.bend.view == bend::View::eye) options.budget = *a.max_triangles;
   else if (a.max_triangles) options.bend.max_triangles = *a.max_triangles;
   options.levels = !a.no_lod;
@@ -93,44 +99,102 @@ driver::CompileOptions compile_options(const CompileArguments& a) {
   return options;
 }
 
+driver::Amount amount_of(const cover::Plan& plan, bool native) {
+  return {static_cast<std::uint64_t>(plan.copies), plan.vertices, plan.triangles, native};
+}
+
+/// Says that an export will be large, and what would make it smaller; before light is baked, so that there is time to stop.
+void tell_of_size(const cover::Plan& plan, const std::string& format, bool native, const Common& common, Diagnostics& told) {
+  constexpr std::uint64_t kLarge = 500'000'000;
+  const auto bytes_of = [&](const driver::Amount& amount) { return format == "pov" ? pov::bytes_of(amount) : gltf::bytes_of(amount); };
+  const std::uint64_t bytes = bytes_of(amount_of(plan, native));
+  if (bytes <= kLarge) return;
+  driver::Amount fits{0, 0, 0, native};
+  int bounces = -1;
+  for (std::size_t b = 0; b < plan.copies_per_bounces.size(); ++b) {
+    fits.copies += static_cast<std::uint64_t>(plan.copies_per_bounces[b]);
+    fits.vertices += plan.vertices_per_bounces[b], fits.triangles += plan.triangles_per_bounces[b];
+    if (bytes_of(fits) > kLarge) break;
+    bounces = static_cast<int>(b);
+  }
+  const double share = 0.8 * static_cast<double>(kLarge) / static_cast<double>(bytes);   // the plan may be off by a fifth
+  const auto triangles = static_cast<std::uint64_t>(share * static_cast<double>(plan.triangles)) / 100'000 * 100'000;
+  std::string hint = fmt::format("--max-triangles {} makes it smaller, with the least error that does", triangles);
+  if (bounces >= 0) hint = fmt::format("--max-bounces {} would stay below 500 MB; {}", bounces, hint);
+  const Diagnostics warning{make_warning(
+      "cli.large-export",
+      fmt::format("the export will have about {:.2g} GB: {} copies, {:.3g} million triangles", static_cast<double>(bytes) / 1e9,
+                  to_string(plan.copies), static_cast<double>(plan.triangles) / 1e6), hint)};
+  print(warning, common);
+  append(told, warning);
+}
+
+int write_plan(const driver::Opened& opened, const CompileArguments& a, const Common& common) {
+  const auto plan = driver::plan(opened, compile_options(a), driver::parallel_executor(common.threads, &interrupted()));
+  if (!plan) return print(plan.error(), common), kSceneWrong;
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(driver::plan_json(*plan));
+  const driver::Amount amount = amount_of(*plan, driver::lit_natively(opened.scene));
+  json["pov_bytes"] = pov::bytes_of(amount);
+  json["gltf_bytes"] = gltf::bytes_of(amount);
+  write_output("-", json.dump(2) + "\n");
+  return kDone;
+}
+
+void refuse_what_cannot_be(const CompileArguments& a, const std::string& format, const Common& common) {
+  if (a.output == "-" && format == "gltf") throw UsageError("a .gltf has files beside it and cannot go to standard output; use -f glb");
+  if ((a.output == "-") + (a.report == "-") + (common.json ? 1 : 0) > 1)
+    throw UsageError("only one thing can go to standard output: the scene, the report or --json");
+}
+
+}  // namespace
+
+Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& a, const std::string& format, const Common& common) {
+  if (opened.scene.bake.atlas == scene::AtlasDepth::exr && format.substr(0, 2) == "gl")
+    return make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR", "use `atlas: 16` (--atlas 16), or write .pov",
+                      opened.scene.span);
+  ProgressBar bar(!common.quiet && stderr_is_terminal());
+  const Executor executor = driver::parallel_executor(common.threads, &interrupted());
+  driver::CompileOptions options = compile_options(a);
+  Diagnostics large;
+  if (!a.max_triangles || *a.max_triangles > 4'000'000)   // fewer are small
+    options.foresee = [&](const cover::Plan& plan) {
+      bar.clear();
+      if (large.empty()) tell_of_size(plan, format, driver::lit_natively(opened.scene), common, large);
+    };
+  const auto compiled = driver::compile(opened, options, executor, bar.progress());
+  if (!compiled) return compiled.error();
+  Exported result{compiled->report, driver::report_json(*compiled), notes_of(*compiled, format), large, 0};
+  report(bar.progress(), "writing", 0, 0);
+  result.bytes = write_files(exported(compiled->product, format, a.output, a.nodes_per_copy), a.output);
+  if (!a.report.empty()) write_output(a.report, result.report_json);
+  return result;
+}
+
 int compile(const CompileArguments& a, const Common& common) {
   if (a.output.empty() && !a.plan) throw UsageError("say where to write: -o FILE, or -o - for standard output");
   const std::string format = a.plan ? "glb" : format_of(a);
-  if (a.output == "-" && format == "gltf") throw UsageError("a .gltf has files beside it and cannot go to standard output; use -f glb");
-  if (a.output == "-" && (common.json || a.report == "-"))
-    throw UsageError("only one thing can go to standard output: the scene, the report or --json");
-  const driver::CompileOptions options = compile_options(a);
-  const auto opened = driver::open_scene(a.scene.scene, overrides_of(a.scene));
+  refuse_what_cannot_be(a, format, common);
+  (void)compile_options(a);   // mistakes on the command line come before those of the scene
+  auto opened = driver::open_scene(a.scene.scene, overrides_of(a.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;
+  const unsigned target = a.plan ? kPov | kGltf : format == "svg" ? kSvg : format == "pov" ? kPov : kGltf;
+  append(opened->notes, without_effect(common.given, {target, a.plan, a.view == "disk", false, 1}, *opened));
   print(opened->notes, common);
-  if (opened->scene.bake.atlas == scene::AtlasDepth::exr && format.substr(0, 2) == "gl")
-    return print({make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR",
-                             "use `atlas: 16` (--atlas 16), or write .pov", opened->scene.span)},
-                 common),
-           kSceneWrong;
+  if (a.plan) return write_plan(*opened, a, common);
   if (format == "svg") return write_tiling(*opened, a, common);
-
-  ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const Executor executor = driver::parallel_executor(common.threads, &interrupted());
-  if (a.plan) {
-    const auto plan = driver::plan(*opened, options, executor);
-    if (!plan) return print(plan.error(), common), kSceneWrong;
-    write_output("-", driver::plan_json(*plan));
-    return kDone;
+  const auto made = export_scene(*opened, a, format, common);
+  if (!made) return print(made.error(), common), kSceneWrong;
+  print(made->notes, common);
+  append(opened->notes, made->told);
+  append(opened->notes, made->notes);
+  if (common.json) {
+    nlohmann::ordered_json result{{"output", a.output}, {"format", format}, {"bytes", made->bytes}};
+    result.update(nlohmann::ordered_json::parse(made->report_json));
+    print_result(std::move(result), opened->notes, common);
   }
-  const auto compiled = driver::compile(*opened, options, executor, bar.progress());
-  if (!compiled) return bar.clear(), print(compiled.error(), common), kSceneWrong;
-  bar.clear();
-  print_notes(*compiled, format, a, common);
-  report(bar.progress(), "writing", 0, 0);
-  write_files(exported(compiled->product, format, a.output, a.nodes_per_copy), a.output);
-  if (!a.report.empty()) write_output(a.report, driver::report_json(*compiled));
-  if (common.json) write_output("-", driver::report_json(*compiled));
-  bar.clear();
-  const driver::Report& r = compiled->report;
+  const driver::Report& r = made->report;
   if (!common.quiet)
-    fmt::print(stderr, "{}: {} copies, {} triangles, true within {:.3g} px\n", a.output == "-" ? "standard output" : a.output, r.copies,
-               r.triangles, r.error_bound_px);
+    fmt::print(stderr, "{}: {} copies, {} triangles, true within {:.3g} px\n", shown(a.output), r.copies, r.triangles, r.error_bound_px);
   return kDone;
 }
 

@@ -49,7 +49,10 @@ void add_compile_options(CLI::App& command, CompileArguments& a) {
                   "flat rooms)")
       ->check(CLI::IsMember({"baked", "native"}))
       ->type_name("NAME");
-  command.add_option("--tolerance", a.tolerance, "Largest error of a bent edge, in pixels of the picture")
+  command
+      .add_option("--tolerance", a.tolerance,
+                  "Nothing in the picture is displaced by more, in pixels: half of it is for bent edges, half for coarser meshes of far "
+                  "things")
       ->capture_default_str()
       ->check(CLI::Range(1e-4, 1e4))
       ->type_name("PX");

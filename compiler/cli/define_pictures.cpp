@@ -10,7 +10,9 @@ void define_render(Program& program) {
   RenderArguments& a = *arguments;
   CLI::App* c = program.app.add_subcommand("render", "Draw a scene in one go");
   add_scene(*c, a.compile.scene);
-  c->add_option("-o,--output", a.compile.output, "The picture (PNG)")->required()->type_name("FILE");
+  c->add_option("-o,--output", a.compile.output, "The picture: .png, .jpg, with the tracer also .exr; - for PNG on standard output")
+      ->required()
+      ->type_name("FILE");
   c->add_option("--engine", a.engine, "Who draws: povray, blender or tracer")
       ->capture_default_str()
       ->check(CLI::IsMember({"povray", "blender", "tracer"}))
@@ -33,7 +35,8 @@ void define_trace(Program& program) {
   add_scene(*c, a.compile.scene);
   add_quality(*c, a.compile.scene,
               "Paths of each sample for light that surfaces pass on, instead of the scene's: draft (2), normal (8) or fine (32)");
-  c->add_option("-o,--output", a.compile.output, "The picture: .png, or .exr with all passes in floating point")
+  c->add_option("-o,--output", a.compile.output,
+                "The picture: .png, .jpg, or .exr with all passes in floating point; - for PNG on standard output")
       ->required()
       ->type_name("FILE");
   c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");

@@ -28,9 +28,10 @@ void define_verify(Program& program) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("SHARE");
-  c->add_option("--difference", a.difference, "Write a picture of the differences")->type_name("FILE");
-  c->add_option("--keep", a.keep, "Write both pictures as STEM-export.png and STEM-tracer.png")->type_name("STEM");
-  a.compile.tolerance = 0.05;
+  c->add_option("--difference", a.difference, "Write a picture of the differences: .png or .jpg")->type_name("FILE");
+  c->add_option("--keep", a.keep, "Write both pictures as STEM-export.png and STEM-tracer.png; a STEM that ends in .jpg writes JPEG")
+      ->type_name("STEM");
+  a.compile.tolerance = 0.1;
   add_compile_options(*c, a.compile);
   c->get_option("--quality")
       ->description(

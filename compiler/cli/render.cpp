@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "compiler/cli/commands.h"
+#include "compiler/cli/draw.h"
+#include "compiler/cli/effects.h"
 #include "compiler/cli/output.h"
+#include "compiler/cli/picture.h"
 #include "compiler/cli/progress_bar.h"
+#include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
 #include "compiler/driver/compare.h"
 #include "compiler/driver/threads.h"
@@ -15,11 +18,6 @@
 
 namespace orbc::cli {
 namespace {
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // POV-Ray's own antialiasing samples only where neighbours differ and blends encoded colours; a picture n times larger, averaged in linear
 // light, has n² true samples a pixel. Blender takes any number.
@@ -45,38 +43,6 @@ std::vector<std::string> drawing_command(const RenderArguments& a, const driver:
   return command;
 }
 
-int render_elsewhere(const RenderArguments& a, const Common& common) {
-  if (a.engine == "povray") (void)side_of(a.samples);
-  const auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
-  if (!opened) return print(opened.error(), common), kSceneWrong;
-  print(opened->notes, common);
-  const TemporaryFolder folder;
-  CompileArguments exported = a.compile;
-  exported.output = (folder.path() / (a.engine == "povray" ? "scene.pov" : "scene.glb")).string();
-  exported.tell_notes = !common.quiet;
-  Common within = common;
-  within.quiet = true, within.json = false;
-  if (const int code = compile(exported, within); code != kDone) return code;
-  const std::string picture = (folder.path() / "picture.png").string();
-  if (!common.quiet && stderr_is_terminal()) fmt::print(stderr, "{} draws ...\n", a.engine);
-  const int code = run_program(drawing_command(a, *opened, exported.output, picture, common), true);
-  if (code != 0) return code == 127 ? kMachine : code;
-  const int side = a.engine == "povray" ? side_of(a.samples) : 1;
-  if (side == 1) {
-    write_output(a.compile.output, read_file(picture));
-  } else {
-    const auto large = mesh::load_image(picture, {.max_side = 1 << 20, .max_bytes = std::uint64_t{8} << 30});
-    if (!large) throw std::runtime_error("cannot read back POV-Ray's picture: " + to_text(large.error()));
-    write_output(a.compile.output, mesh::encode_png(driver::averaged(*large, side)));
-  }
-  if (!common.quiet) fmt::print(stderr, "{}: drawn by {}\n", a.compile.output, a.engine);
-  return kDone;
-}
-
-bool ends_with(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 render::Pass pass_of(const std::string& name) {
   for (const auto& [known, pass] : {std::pair{"depth", render::Pass::depth},
                                     {"normal", render::Pass::normal},
@@ -93,26 +59,87 @@ std::string noise_text(const render::Film& film, double exposure) {
   return fmt::format("; noise {:.1f}/255, less with more --samples", render::noise_of(film, exposure));
 }
 
-int render_here(const RenderArguments& a, const Common& common) {
-  const auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
-  if (!opened) return print(opened.error(), common), kSceneWrong;
-  print(opened->notes, common);
-  ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
-  const bool exr = ends_with(a.compile.output, ".exr");
-  write_output(a.compile.output,
-               exr ? render::to_exr(film) : mesh::encode_png(render::to_image(film, pass_of(a.pass), opened->scene.exposure)));
-  bar.clear();
+nlohmann::ordered_json result_of(const RenderArguments& a, PictureFormat format, const place::Eye& eye) {
+  return {{"output", a.compile.output}, {"format", name(format)}, {"engine", a.engine}, {"width", eye.width}, {"height", eye.height},
+          {"samples", a.samples}};
+}
+
+int render_elsewhere(const driver::Opened& opened, const RenderArguments& a, PictureFormat format, const Common& common) {
+  const Drawn drawn = draw_elsewhere(opened, a, common);
+  if (drawn.code != kDone) return drawn.code;
+  write_output(a.compile.output, encoded(drawn.picture, format));
+  const driver::Report& r = drawn.exported.report;
+  nlohmann::ordered_json result = result_of(a, format, opened.eye);
+  result.update({{"copies", r.copies}, {"triangles", r.triangles}, {"error_bound_px", r.error_bound_px}});
+  Diagnostics told = opened.notes;
+  append(told, drawn.exported.told);
+  append(told, drawn.exported.notes);
+  print_result(std::move(result), told, common);
   if (!common.quiet)
-    fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", a.compile.output, film.width, film.height, a.samples,
-               noise_text(film, opened->scene.exposure));
+    fmt::print(stderr, "{}: {}x{}, {} samples a pixel, drawn by {} from {} copies, {} triangles, true within {:.3g} px\n",
+               shown(a.compile.output), opened.eye.width, opened.eye.height, a.samples, a.engine, r.copies, r.triangles, r.error_bound_px);
+  return kDone;
+}
+
+int render_here(const driver::Opened& opened, const RenderArguments& a, PictureFormat format, const Common& common) {
+  ProgressBar bar(!common.quiet && stderr_is_terminal());
+  const render::Film film = driver::trace(opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
+  write_output(a.compile.output, format == PictureFormat::exr
+                                     ? render::to_exr(film)
+                                     : encoded(render::to_image(film, pass_of(a.pass), opened.scene.exposure), format));
+  bar.clear();
+  nlohmann::ordered_json result = result_of(a, format, opened.eye);
+  result["pass"] = format == PictureFormat::exr ? "all" : a.pass;
+  if (!film.error.empty()) result["noise"] = render::noise_of(film, opened.scene.exposure);
+  print_result(std::move(result), opened.notes, common);
+  if (!common.quiet)
+    fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
+               noise_text(film, opened.scene.exposure));
   return kDone;
 }
 
 }  // namespace
 
+Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, const Common& common) {
+  const int side = a.engine == "povray" ? side_of(a.samples) : 1;
+  const TemporaryFolder folder;
+  CompileArguments exported = a.compile;
+  const std::string format = a.engine == "povray" ? "pov" : "glb";
+  exported.output = (folder.path() / ("scene." + format)).string();
+  exported.report.clear();
+  Drawn drawn;
+  {
+    auto made = export_scene(opened, exported, format, common);
+    if (!made) return print(made.error(), common), Drawn{kSceneWrong, {}, {}};
+    drawn.exported = std::move(made).value();
+  }
+  print(drawn.exported.notes, common);
+  const std::string picture = (folder.path() / "picture.png").string();
+  if (!common.quiet && stderr_is_terminal()) fmt::print(stderr, "{} draws ...\n", a.engine);
+  if (const int code = run_program(drawing_command(a, opened, exported.output, picture, common), true); code != 0) {
+    print({make_error("cli.not-drawn", fmt::format("{} did not draw the export (exit code {})", a.engine, code),
+                      code == 127 ? "its script could not be started" : "what it says of it stands above")},
+          common);
+    return {code == 127 ? kMachine : code, {}, {}};
+  }
+  // Decoded, since such pictures carry dates: what is written of it is the same for the same scene.
+  auto decoded = mesh::load_image(picture, {.max_side = 1 << 20, .max_bytes = std::uint64_t{8} << 30});
+  if (!decoded) throw std::runtime_error(fmt::format("cannot read back the picture of {}: {}", a.engine, to_text(decoded.error())));
+  drawn.picture = side == 1 ? std::move(*decoded) : driver::averaged(*decoded, side);
+  return drawn;
+}
+
 int render(const RenderArguments& a, const Common& common) {
-  return a.engine == "tracer" ? render_here(a, common) : render_elsewhere(a, common);
+  const bool here = a.engine == "tracer";
+  const PictureFormat format = picture_format_of(a.compile.output, here, fmt::format("pictures of {} have 8 bits", a.engine));
+  keep_standard_output_apart(a.compile.output, common);
+  if (a.engine == "povray") (void)side_of(a.samples);
+  auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
+  if (!opened) return print(opened.error(), common), kSceneWrong;
+  const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;
+  append(opened->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *opened));
+  print(opened->notes, common);
+  return here ? render_here(*opened, a, format, common) : render_elsewhere(*opened, a, format, common);
 }
 
 }  // namespace orbc::cli

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <new>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "compiler/base/diagnostic.h"
@@ -17,6 +16,7 @@
 #include "compiler/cli/define.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/progress_bar.h"
+#include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
 
 namespace orbc::cli {
@@ -36,6 +36,11 @@ void define_commands(Program& program) {
   define_verify(program);
   define_completion(program);
   define_man(program);
+}
+
+// Before the options are read, too.
+bool asks_for_json(int argc, char** argv) {
+  return std::any_of(argv, argv + argc, [](const char* word) { return std::string(word) == "--json"; });
 }
 
 /// A misspelt command, said as such: CLI11 would call it and all words after it "not expected".
@@ -69,10 +74,14 @@ int dispatch(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
+    if (asks_for_json(argc, argv)) print_failure("cli.usage", error.what());
     if (told_unknown_command(app, argc, argv)) return kUsage;
     app.exit(error, std::cerr, std::cerr);
     return kUsage;
   }
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      if (option->count() > 0 && !option->get_lnames().empty()) program.common.given.push_back(option->get_lnames().front());
   for (const Command& command : program.commands)
     if (app.got_subcommand(command.options)) return command.run(program.common);
   write_output("-", app.help());
@@ -83,22 +92,22 @@ int dispatch(int argc, char** argv) {
 
 int run(int argc, char** argv) {
   install_interrupt_handler();
+  const auto fail = [&](const char* code, const std::string& message, int exit_code) {
+    fmt::print(stderr, "orbc: {}\n", message);
+    if (asks_for_json(argc, argv)) print_failure(code, message);
+    return exit_code;
+  };
   try {
     return dispatch(argc, argv);
   } catch (const UsageError& error) {
-    fmt::print(stderr, "orbc: {}\n", error.what());
-    return kUsage;
+    return fail("cli.usage", error.what(), kUsage);
   } catch (const Cancelled&) {
-    fmt::print(stderr, "orbc: stopped; nothing was written\n");
-    return kInterrupted;
+    return fail("cli.stopped", "stopped; nothing was written", kInterrupted);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "orbc: out of memory; try fewer --max-bounces or a larger --tolerance\n");
-  } catch (const std::system_error& error) {
-    fmt::print(stderr, "orbc: {}\n", error.what());
+    return fail("cli.out-of-memory", "out of memory; try fewer --max-bounces or a larger --tolerance", kMachine);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "orbc: {}\n", error.what());
+    return fail("cli.machine", error.what(), kMachine);
   }
-  return kMachine;
 }
 
 }  // namespace orbc::cli

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/cli/commands.h"
+#include "compiler/cli/effects.h"
 #include "compiler/cli/output.h"
+#include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
@@ -18,15 +22,20 @@ int new_scene(const NewArguments& a, const Common& common) {
   print(parsed->notes, common);
   const auto room = room::realise(parsed->orbifold);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
-  write_output("-", scene::starter_scene(notation::to_text(parsed->orbifold), static_cast<int>(room->walls.size()), room->inradius));
+  const std::string notation = notation::to_text(parsed->orbifold);
+  const std::string scene = scene::starter_scene(notation, static_cast<int>(room->walls.size()), room->inradius);
+  if (!common.json) write_output("-", scene);
+  print_result({{"orbifold", notation}, {"scene", scene}}, parsed->notes, common);
   return kDone;
 }
 
 int check(const CheckArguments& a, const Common& common) {
+  if (std::count(a.scenes.begin(), a.scenes.end(), "-") > 1) throw UsageError("standard input can be read once: give - once");
   int code = kDone;
   Diagnostics all;
   for (const std::string& path : a.scenes) {
-    const auto opened = driver::open_scene(path);
+    auto opened = driver::open_scene(path);
+    if (opened) append(opened->notes, without_effect(common.given, {kTraced | kPov | kGltf, false, false, false, 1}, *opened));
     const Diagnostics& found = opened ? opened->notes : opened.error();
     Common plain = common;
     plain.json = false;

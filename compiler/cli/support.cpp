@@ -6,12 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "compiler/cli/output.h"
@@ -21,25 +22,21 @@ extern char** environ;
 
 namespace orbc::cli {
 
-std::string to_json(const Diagnostics& diagnostics) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Diagnostic& d : diagnostics) {
-    static constexpr const char* kNames[] = {"note", "warning", "error"};
-    nlohmann::ordered_json entry{{"severity", kNames[static_cast<int>(d.severity)]}, {"code", d.code}, {"message", d.message}};
-    if (!d.hint.empty()) entry["hint"] = d.hint;
-    if (d.span.source) entry["file"] = d.span.source->name;
-    if (d.span.line) entry["line"] = d.span.line, entry["column"] = d.span.column, entry["length"] = d.span.length;
-    list.push_back(std::move(entry));
-  }
-  return list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 void print(const Diagnostics& diagnostics, const Common& common) {
   std::string text;
   for (const Diagnostic& d : diagnostics)
     if (d.severity == Severity::error || (d.severity == Severity::warning && !common.quiet) || common.verbose) text += to_text(d);
   std::fputs(text.c_str(), stderr);
   if (common.json && has_error(diagnostics)) write_output("-", "{\"diagnostics\": " + to_json(diagnostics) + "}\n");
+}
+
+std::string shown(const std::string& output) { return output == "-" ? "standard output" : output; }
+
+void append(Diagnostics& to, const Diagnostics& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 std::array<int, 2> parse_size(const std::string& text) {

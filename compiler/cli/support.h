@@ -22,6 +22,13 @@ struct UsageError : std::runtime_error {
 void print(const Diagnostics& diagnostics, const Common& common);
 [[nodiscard]] std::string to_json(const Diagnostics& diagnostics);
 
+/// How messages name where something is written.
+[[nodiscard]] std::string shown(const std::string& output);
+void append(Diagnostics& to, const Diagnostics& more);
+
+/// Of the letters a to z, in any locale.
+[[nodiscard]] std::string lower_case(std::string text);
+
 /// "800x600". Throws UsageError.
 [[nodiscard]] std::array<int, 2> parse_size(const std::string& text);
 /// "512MiB", "4GiB", "1e9", plain bytes. Throws UsageError.

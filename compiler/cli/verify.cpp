@@ -1,13 +1,17 @@
 // The two roads side by side: the export drawn by an unmodified renderer, and the tracer's picture with real mirrors.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <filesystem>
 
 #include "compiler/cli/commands.h"
+#include "compiler/cli/draw.h"
+#include "compiler/cli/effects.h"
 #include "compiler/cli/output.h"
+#include "compiler/cli/picture.h"
 #include "compiler/cli/progress_bar.h"
+#include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
 #include "compiler/driver/compare.h"
 #include "compiler/driver/threads.h"
@@ -17,17 +21,13 @@
 namespace orbc::cli {
 namespace {
 
+constexpr const char* kEightBits = "pictures of verify have 8 bits";
+
 struct Verdict {
   std::string engine;
   driver::Comparison comparison;
   bool passed = false;
 };
-
-mesh::Image decoded(const std::string& path) {
-  const auto image = mesh::load_image(path);
-  if (!image) throw std::runtime_error("cannot read back the renderer's picture: " + to_text(image.error()));
-  return *image;
-}
 
 bool passes(const driver::Comparison& c, const VerifyArguments& a) {
   const std::uint64_t good = a.within == 1 ? c.within_1 : a.within == 2 ? c.within_2 : a.within == 4 ? c.within_4 : c.within_8;
@@ -47,7 +47,7 @@ std::string table(const std::vector<Verdict>& verdicts) {
   return text;
 }
 
-std::string json(const std::vector<Verdict>& verdicts) {
+nlohmann::ordered_json json(const std::vector<Verdict>& verdicts) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Verdict& v : verdicts) {
     const driver::Comparison& c = v.comparison;
@@ -63,51 +63,79 @@ std::string json(const std::vector<Verdict>& verdicts) {
                     {"beyond_2_elsewhere", c.beyond_off_edge},
                     {"agrees", v.passed}});
   }
-  return list.dump(2) + "\n";
+  return list;
+}
+
+// Where the two pictures and that of their differences go: "shot.jpg" makes shot-export.jpg and shot-tracer.jpg, "shot" writes PNG.
+struct Kept {
+  std::string stem, ending;
+  PictureFormat format = PictureFormat::png;
+};
+
+Kept kept(const std::string& name) {
+  const std::string ending = std::filesystem::path(name).extension().string();
+  const std::string known = lower_case(ending);
+  if (known != ".png" && known != ".jpg" && known != ".jpeg") return {name, ".png"};
+  return {name.substr(0, name.size() - ending.size()), ending, known == ".png" ? PictureFormat::png : PictureFormat::jpeg};
+}
+
+void write_pictures(const VerifyArguments& a, const mesh::Image& drawn, const mesh::Image& reference) {
+  if (!a.difference.empty())
+    write_output(a.difference,
+                 encoded(driver::difference_picture(drawn, reference), picture_format_of(a.difference, false, kEightBits)));
+  if (a.keep.empty()) return;
+  const Kept names = kept(a.keep);
+  write_output(names.stem + "-export" + names.ending, encoded(drawn, names.format));
+  write_output(names.stem + "-tracer" + names.ending, encoded(reference, names.format));
+}
+
+void refuse_what_cannot_be(const VerifyArguments& a) {
+  if (a.difference == "-" || a.keep == "-") throw UsageError("standard output holds the table of verify; name a file for its pictures");
+  if (!a.difference.empty()) (void)picture_format_of(a.difference, false, kEightBits);
 }
 
 }  // namespace
 
 int verify(const VerifyArguments& a, const Common& common) {
-  const auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
+  refuse_what_cannot_be(a);
+  auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;
+  const unsigned targets = kTraced | kPov | (a.blender ? unsigned{kGltf} : 0);
+  append(opened->notes, without_effect(common.given, {targets, false, false, false, a.samples}, *opened));
   print(opened->notes, common);
-  Common within = common;
-  within.json = false;
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   bar.clear();
   const mesh::Image reference = render::to_image(film, opened->scene.exposure);
-  const TemporaryFolder folder;
+  // Two roads are compared, not how coarsely one of them may be walked.
+  if (a.compile.scene.quality.empty()) opened->scene.bake.quality = scene::BakeQuality::fine;
   std::vector<Verdict> verdicts;
   mesh::Image drawn;
-  CompileArguments finest = a.compile;  // two roads are compared, not how coarsely one of them may be walked
-  if (finest.scene.quality.empty()) finest.scene.quality = "fine";
+  Diagnostics told = opened->notes;
+  Common silent = common;
+  silent.quiet = true;
   for (const char* engine : {"blender", "povray"}) {  // the difference picture shows POV-Ray's, which is always drawn
     if (engine == std::string("blender") && !a.blender) continue;
     RenderArguments render_arguments;
-    render_arguments.compile = finest;
+    render_arguments.compile = a.compile;
     render_arguments.engine = engine;
     render_arguments.samples = a.samples;
-    render_arguments.compile.output = (folder.path() / (std::string(engine) + ".png")).string();
-    Common silent = within;
-    silent.quiet = true;
-    if (const int code = render(render_arguments, silent); code != kDone) return code;
-    drawn = decoded(render_arguments.compile.output);
+    Drawn by_engine = draw_elsewhere(*opened, render_arguments, silent);
+    if (by_engine.code != kDone) return by_engine.code;
+    append(told, by_engine.exported.notes);
+    drawn = std::move(by_engine.picture);
     if (drawn.width != reference.width || drawn.height != reference.height)
       throw std::runtime_error("the renderer's picture has another size");
     Verdict verdict{engine, driver::compare(drawn, reference), false};
     verdict.passed = passes(verdict.comparison, a);
     verdicts.push_back(verdict);
   }
-  if (!a.difference.empty()) write_output(a.difference, mesh::encode_png(driver::difference_picture(drawn, reference)));
-  if (!a.keep.empty()) {
-    write_output(a.keep + "-export.png", mesh::encode_png(drawn));
-    write_output(a.keep + "-tracer.png", mesh::encode_png(reference));
-  }
-  write_output("-", common.json ? json(verdicts) : table(verdicts));
-  bool all = true;
-  for (const Verdict& v : verdicts) all = all && v.passed;
+  write_pictures(a, drawn, reference);
+  const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
+  if (!common.json) write_output("-", table(verdicts));
+  print_result({{"agrees", all}, {"width", reference.width}, {"height", reference.height}, {"samples", a.samples}, {"within", a.within},
+                {"threshold", a.threshold}, {"off_edge", a.off_edge}, {"pictures", json(verdicts)}},
+               told, common);
   if (!all && !opened->scene.lamps.empty() && !common.quiet)
     fmt::print(stderr,
                "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.99 "

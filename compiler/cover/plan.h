@@ -25,7 +25,8 @@ struct Plan {
   std::vector<Integer> copies_per_bounces;  ///< 0 … the last bounce that has copies
   int sheets = 1;
   std::uint64_t room_triangles = 0, room_vertices = 0;    ///< of one copy
-  std::uint64_t triangles = 0, vertices = 0, bytes = 0;   ///< of all copies
+  std::uint64_t triangles = 0, vertices = 0, bytes = 0;   ///< of all copies; bytes are those of memory
+  std::vector<std::uint64_t> triangles_per_bounces, vertices_per_bounces;   ///< as far as they are foreseen
 };
 
 /// Plans a scene before it is unfolded: how many copies.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -44,6 +45,26 @@ double share_in(const Wedge& wedge, Space space, const Ambient& seen, double rad
   return half > 0 ? std::clamp(shared / (2 * half), 0.0, 1.0) : 1;
 }
 
+struct Model {
+  std::vector<Disk> disks;
+  double triangles = 0;
+};
+
+std::vector<Model> models_of(const Contents& contents, Space space) {
+  std::map<const place::PlacedMesh*, Disk> known;   // looked up only
+  std::vector<Model> models;
+  for (const auto& meshes : contents.models) {
+    Model& model = models.emplace_back();
+    for (const place::PlacedMesh* mesh : meshes) {
+      auto found = known.find(mesh);
+      if (found == known.end()) found = known.emplace(mesh, disk_of(space, *mesh)).first;
+      model.disks.push_back(found->second);
+      model.triangles += found->second.triangles;
+    }
+  }
+  return models;
+}
+
 struct Guess {
   double distance = 0, triangles = 0;
   std::size_t copy = 0;
@@ -51,27 +72,32 @@ struct Guess {
 
 }  // namespace
 
-std::vector<Sample> sample_of(const std::vector<Copy>& copies, const place::PlacedRoom& room, const place::Eye& eye, std::size_t most) {
+Contents contents_of(const place::PlacedRoom& room) {
+  Contents contents{&room, {{}}, {}};
+  for (const place::PlacedMesh& part : room.parts) contents.models.front().push_back(&part);
+  return contents;
+}
+
+std::vector<Sample> sample_of(const std::vector<Copy>& copies, const Contents& contents, const place::Eye& eye, std::size_t most) {
   std::vector<Sample> samples;
   if (copies.size() <= most) {
     for (std::size_t i = 0; i < copies.size(); ++i) samples.push_back({i, 1});
     return samples;
   }
-  const Space space = room.room.space;
+  const Space space = contents.room->room.space;
   const auto eye_from_cover = inverse(eye.room_from_eye);
-  std::vector<Disk> disks;
-  double whole = 0;
-  for (const auto& part : room.parts) disks.push_back(disk_of(space, part)), whole += disks.back().triangles;
+  const std::vector<Model> models = models_of(contents, space);
   std::vector<Guess> guesses;
   guesses.reserve(copies.size());
   for (std::size_t i = 0; i < copies.size(); ++i) {
     const Copy& copy = copies[i];
     const auto eye_from_copy = eye_from_cover * copy.cover_from_room;
     const Ambient centre = eye_from_copy * geometry::Point();
-    Guess guess{geometry::arc_k(space, centre.w, std::hypot(centre.x, centre.y)), 0.02 * whole + 1, i};
+    const Model& model = models[contents.model_of_copy.empty() ? 0 : contents.model_of_copy[i]];
+    Guess guess{geometry::arc_k(space, centre.w, std::hypot(centre.x, centre.y)), 0.02 * model.triangles + 1, i};
     if (copy.sheet > 0)
       guess.distance = copy.sheet * std::numbers::pi + (copy.sheet % 2 == 1 ? std::numbers::pi - guess.distance : guess.distance);
-    for (const Disk& disk : disks) {
+    for (const Disk& disk : model.disks) {
       if (disk.wall >= 0 && disk.wall < 64 && ((copy.nearer_walls >> disk.wall) & 1)) continue;
       Ambient seen = eye_from_copy * disk.centre;
       if (copy.sheet % 2 == 1) seen = -1.0 * seen;

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -122,6 +120,8 @@ Result<std::vector<cover::Copy>> unfolded(const Opened& opened, const CompileOpt
   const auto most = static_cast<std::uint64_t>(static_cast<double>(options.max_memory / 2) / cover::kBytesPerCopy);
   return cover::unfold(*opened.room, opened.eye, opened.scene.cover, {std::min(most, cover::UnfoldOptions().max_copies), progress});
 }
+
+constexpr std::uint64_t kMany = 1'000'000;   // triangles before splitting: from here on it pays to look ahead
 
 /// All that bending needs.
 struct Ready {
@@ -238,6 +238,8 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const Opened* lit
   ready->bending = options.bend;
   ready->bending.colours_vary = options.bend.colours_vary || light::needs_bake(opened.scene, *opened.room);
   if (auto wrong = choose_detail(opened, options, *ready, executor, progress); !wrong.empty()) return wrong;
+  if (purpose == Purpose::product && options.foresee && ready->tally.triangles > kMany)
+    if (const auto planned = plan(opened, options, executor)) options.foresee(*planned);
   if (auto wrong = dress(opened, lit, options, *ready, purpose, executor, progress); !wrong.empty()) return wrong;
   return ready;
 }
@@ -252,7 +254,12 @@ Result<cover::Plan> estimated(const Opened& opened, const CompileOptions& option
     }
     return bend::bend(ready.painted.atlas.room, ready.models, models, copies, opened.eye, ready.bending, executor);
   };
-  return estimate(*opened.room, opened.eye, ready.copies, opened.scene.cover.max_bounces, options.max_memory / 2, bend_some);
+  cover::Contents contents{opened.room.get(), {}, ready.choice.model_of_copy};
+  for (const bend::Model& model : ready.models) {
+    contents.models.emplace_back();
+    for (const bend::Model::Part& part : model.parts) contents.models.back().push_back(part.mesh);
+  }
+  return estimate(contents, opened.eye, ready.copies, opened.scene.cover.max_bounces, options.max_memory / 2, bend_some);
 }
 
 /// Draws what glows, and what belongs to lamps, as copies of their own behind the others: the parts of every model are parted.
@@ -373,7 +380,7 @@ Report report_of(const Opened& opened, const Ready& ready, const Product& produc
   r.highlights = ready.painted.highlights.counts;
   r.weight_lost = ready.beyond.weight_lost, r.weight_merged = ready.beyond.weight_merged;
   r.triangles_whole = r.triangles + ready.tally.saved;
-  r.tolerance_px = ready.bending.tolerance_px;
+  r.tolerance_px = kSharers * ready.bending.tolerance_px;
   r.left_out = ready.left_out, r.left_out_px = ready.left_out_px;
   r.curtains = ready.curtains, r.curtains_dropped = ready.curtains_dropped;
   std::set<std::string> words;
@@ -415,19 +422,14 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
 }
 
 Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor) {
-  const auto ready = get_ready(opened, nullptr, options, Purpose::plan, executor, {});
+  std::optional<Opened> twin;
+  if (lit_natively(opened.scene)) twin.emplace(unlit_twin(opened));
+  const Opened& from = twin ? *twin : opened;
+  const auto ready = get_ready(from, nullptr, options, Purpose::plan, executor, {});
   if (!ready) return located(ready.error(), opened.scene.span);
-  auto planned = estimated(opened, options, **ready, executor);
+  auto planned = estimated(from, options, **ready, executor);
   if (!planned) return located(planned.error(), opened.scene.span);
   return planned;
-}
-
-std::string plan_json(const cover::Plan& p) {
-  std::string per_bounces;
-  for (const Integer& n : p.copies_per_bounces) per_bounces += (per_bounces.empty() ? "" : ", ") + to_string(n);
-  return "{\n  \"copies\": " + to_string(p.copies) + ",\n  \"copies_per_bounces\": [" + per_bounces +
-         "],\n  \"sheets\": " + std::to_string(p.sheets) + ",\n  \"triangles\": " + std::to_string(p.triangles) +
-         ",\n  \"vertices\": " + std::to_string(p.vertices) + ",\n  \"bytes\": " + std::to_string(p.bytes) + "\n}\n";
 }
 
 Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring colouring) {
@@ -438,52 +440,6 @@ Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring
     if (copy.sheet == 0 && copy.storey.number == 0) first_sheet.push_back(std::move(copy));
   return Tiling{
       notation::to_text(opened.scene.orbifold), opened.room->room, std::move(first_sheet), model, colouring, opened.eye.room_from_eye};
-}
-
-/// Of a bearing, counter-clockwise from the x direction of the eye.
-static double degrees_of(const cover::Bearing& b) { return std::atan2(b.y, b.x) * 180 / std::numbers::pi; }
-
-std::string report_json(const Compiled& compiled) {
-  const Report& r = compiled.report;
-  nlohmann::ordered_json json{
-      {"orbifold", compiled.product.title},
-      {"copies", r.copies},
-      {"vertices", r.vertices},
-      {"triangles", r.triangles},
-      {"triangles_without_levels", r.triangles_whole},
-      {"beams", r.beams},
-      {"words", r.words},
-      {"longest_word", r.longest_word},
-      {"error_bound_px", r.error_bound_px},
-      {"tolerance_px", r.tolerance_px},
-      {"copies_left_out", r.left_out},
-      {"left_out_px", r.left_out_px},
-      {"weight_lost", r.weight_lost},
-      {"weight_merged", r.weight_merged},
-      {"curtains", r.curtains},
-      {"curtains_dropped", r.curtains_dropped},
-      {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
-      {"lamps", compiled.product.native ? compiled.product.native->lamps.size() : 0},
-      {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
-  if (!r.levels.empty()) {
-    nlohmann::ordered_json& levels = json["levels"] = nlohmann::ordered_json::array();
-    for (const ToldLevels& of : r.levels) levels.push_back({{"part", of.part}, {"triangles", of.triangles}, {"error", of.error}});
-  }
-  nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
-  for (const DrawnCopy& c : compiled.product.copies) {
-    if (c.shine != Shine::lit) continue;   // listed with its room
-    list.push_back({{"word", cover::to_string(c.word)},
-                    {"bounces", c.bounces},
-                    {"sheet", c.sheet},
-                    {"mirrored", c.reversing},
-                    {"weight", {c.tint.r, c.tint.g, c.tint.b}},
-                    {"distance", c.distance},
-                    {"triangles", c.index_count / 3},
-                    {"level", c.level}});
-    if (c.storey != 0) list.back()["storey"] = c.storey;
-    if (c.wedge) list.back()["wedge_deg"] = {degrees_of(c.wedge->from), degrees_of(c.wedge->to)};
-  }
-  return json.dump(1) + "\n";
 }
 
 }  // namespace orbc::driver

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <vector>
-#include <string>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
+
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/bend/bend.h"
@@ -13,12 +15,17 @@
 
 namespace orbc::driver {
 
+/// Bent edges and coarser levels of detail displace things by up to `bend.tolerance_px` each: together by so many times that.
+inline constexpr double kSharers = 2;
+
 struct CompileOptions {
   bend::BendOptions bend;
   PaintOptions paint;
   std::optional<std::uint64_t> budget;  ///< triangles: where more would come out, the picture's error is let grow until they suffice
-  bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within the tolerance as well
+  bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within `bend.tolerance_px`, too
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< half of it for the product, half for the file that is made of it
+  /// Told before light is baked what will come of it, where that is much; may be called more than once; or nothing
+  std::function<void(const cover::Plan&)> foresee;
 };
 
 /// The levels of a part, the part itself first.
@@ -37,11 +44,11 @@ struct Report {
   double left_out_px = 0;             ///< 0 when a budget left out none
   std::uint64_t curtains = 0;         ///< panels in mirrors of copies, in the colour expected behind them (tail.h)
   bool curtains_dropped = false;      ///< a budget had no room for them
-  double error_bound_px = 0;
+  double error_bound_px = 0;          ///< nothing is displaced by more, at most `tolerance_px`
   double weight_lost = 0;             ///< of paths that are cut off by bounces or weight, mean over the picture: what the tail stands for
   /// The same of paths into copies left out for their size: what curtains stand for whatever the background
   double weight_merged = 0;
-  double tolerance_px = 0;            ///< of bending and of levels: what was asked for, or what a budget allowed
+  double tolerance_px = 0;            ///< of bending and of levels together: what was asked for, or what a budget allowed
   int longest_word = 0;
   std::vector<ToldLevels> levels;     ///< of the parts that have some
   light::HighlightCounts highlights;

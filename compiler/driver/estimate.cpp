@@ -4,40 +4,60 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "compiler/cover/sample.h"
+#include <numeric>
 
 namespace orbc::driver {
 namespace {
 
-constexpr std::size_t kFewest = 128, kMost = 2048;   // copies to be bent
+constexpr std::size_t kFewest = 128, kMost = 16384;   // copies to be bent
 
 double bytes_of(double vertices, double triangles) { return cover::kBytesPerVertex * vertices + cover::kBytesPerTriangle * triangles; }
 
+// Of a copy, before splitting: far ones are drawn from coarse levels.
+double mean_triangles(const cover::Contents& contents, std::size_t copies) {
+  std::vector<double> of_model;
+  for (const auto& meshes : contents.models) {
+    double& sum = of_model.emplace_back(0);
+    for (const place::PlacedMesh* mesh : meshes) sum += static_cast<double>(mesh->triangles.size());
+  }
+  if (contents.model_of_copy.empty()) return of_model.front();
+  double sum = 0;
+  for (const std::uint32_t model : contents.model_of_copy) sum += of_model[model];
+  return sum / static_cast<double>(std::max<std::size_t>(1, copies));
+}
+
+std::vector<std::uint64_t> rounded(const std::vector<double>& values) {
+  std::vector<std::uint64_t> whole;
+  for (const double v : values) whole.push_back(static_cast<std::uint64_t>(std::llround(v)));
+  return whole;
+}
+
 }  // namespace
 
-Result<cover::Plan> estimate(const place::PlacedRoom& room, const place::Eye& eye, const std::vector<cover::Copy>& copies, int max_bounces,
-                             std::uint64_t max_bytes, const BendSome& bend_some, std::uint64_t most_triangles) {
-  cover::Plan plan = cover::plan_of(copies, room);
-  const std::size_t most = std::clamp<std::size_t>(most_triangles / std::max<std::uint64_t>(1, plan.room_triangles), kFewest, kMost);
-  const std::vector<cover::Sample> samples = cover::sample_of(copies, room, eye, most);
+Result<cover::Plan> estimate(const cover::Contents& contents, const place::Eye& eye, const std::vector<cover::Copy>& copies,
+                             int max_bounces, std::uint64_t max_bytes, const BendSome& bend_some, std::uint64_t most_triangles) {
+  cover::Plan plan = cover::plan_of(copies, *contents.room);
+  const double fit = static_cast<double>(most_triangles) / std::max(1.0, mean_triangles(contents, copies.size()));
+  const auto most = static_cast<std::size_t>(std::clamp<double>(fit, kFewest, kMost));
+  const std::vector<cover::Sample> samples = cover::sample_of(copies, contents, eye, most);
   std::vector<std::size_t> which;
   for (const cover::Sample& sample : samples) which.push_back(sample.copy);
   const auto bent = bend_some(which);
   if (!bent) return bent.error();
-  double vertices = 0, triangles = 0;
-  std::vector<double> bytes(plan.copies_per_bounces.size());
+  std::vector<double> bytes(plan.copies_per_bounces.size()), vertices(bytes.size()), triangles(bytes.size());
   for (std::size_t b = 0; b < bytes.size(); ++b) bytes[b] = cover::kBytesPerCopy * static_cast<double>(plan.copies_per_bounces[b]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const bend::BentRange& range = bent->copies[i];
     const double v = samples[i].stands_for * static_cast<double>(range.vertex_count),
                  t = samples[i].stands_for * static_cast<double>(range.index_count) / 3;
-    vertices += v;
-    triangles += t;
-    bytes[static_cast<std::size_t>(copies[samples[i].copy].bounces)] += bytes_of(v, t);
+    const auto bounces = static_cast<std::size_t>(copies[samples[i].copy].bounces);
+    vertices[bounces] += v;
+    triangles[bounces] += t;
+    bytes[bounces] += bytes_of(v, t);
   }
-  plan.vertices = static_cast<std::uint64_t>(std::llround(vertices));
-  plan.triangles = static_cast<std::uint64_t>(std::llround(triangles));
+  plan.vertices = static_cast<std::uint64_t>(std::llround(std::accumulate(vertices.begin(), vertices.end(), 0.0)));
+  plan.triangles = static_cast<std::uint64_t>(std::llround(std::accumulate(triangles.begin(), triangles.end(), 0.0)));
+  plan.vertices_per_bounces = rounded(vertices), plan.triangles_per_bounces = rounded(triangles);
   double sum = 0;
   int fits = -1;
   for (const double b : bytes) {

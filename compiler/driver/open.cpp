@@ -36,7 +36,7 @@ void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from
 }  // namespace
 
 Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
-  auto read_in = read(path, {overrides.integrator});
+  auto read_in = read(path, {overrides.integrator, overrides.projection, overrides.size});
   if (!read_in) return read_in.error();
   Opened opened;
   opened.scene = std::move(read_in->scene), opened.notes = std::move(read_in->notes);

@@ -82,6 +82,12 @@ struct Tiling {
   geometry::Isometry room_from_eye{};  ///< of the eye from which wedges are seen
 };
 
+/// How much there is to be written, without pictures: also of a product that is only foreseen.
+struct Amount {
+  std::uint64_t copies = 0, vertices = 0, triangles = 0;
+  bool normals = false;             ///< with lamps of the renderer's own
+};
+
 /// A file to be written: exporters return these and touch no disk.
 struct File {
   std::string name;                 ///< relative to the main output ("" = the main output itself)

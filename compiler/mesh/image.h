@@ -25,6 +25,9 @@ struct ImageLimits {
 /// The picture as a PNG file, RGB if it is opaque everywhere, else RGBA; same picture, same bytes (no time stamp, no text).
 [[nodiscard]] std::string encode_png(const Image& image);
 
+/// The picture as a baseline JPEG of the given quality (1 to 100), its colours not subsampled, without alpha; same picture, same bytes.
+[[nodiscard]] std::string encode_jpeg(const Image& image, int quality = 92);
+
 /// A picture of 16 bits a channel as PNG, its codes sRGB as they are; with the alpha of a picture of the same size, if one is given.
 [[nodiscard]] std::string encode_deep_png(const DeepImage& image, const Image* alpha = nullptr);
 /// The same as OpenEXR: linear light in half floats.

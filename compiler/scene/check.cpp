@@ -83,7 +83,8 @@ class Checker {
     if (camera.projection == Projection::panorama && std::abs(ratio - 2) > 0.02)
       diagnostics_.push_back(make_warning(
           "scene.stretched", fmt::format("a panorama shows 360° × 180°; {}×{} pixels stretch it", camera.size[0], camera.size[1]),
-          fmt::format("make it twice as wide as high: size: [{}, {}]", 2 * camera.size[1], camera.size[1]), camera.size_span));
+          fmt::format("make it twice as wide as high: size: [{0}, {1}], or --size {0}x{1}", 2 * camera.size[1], camera.size[1]),
+          camera.size_span));
   }
 
   void check_look_at(const std::string& name) {

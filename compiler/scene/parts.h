@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/scene/read.h"
 #include "compiler/scene/scene.h"
 #include "compiler/scene/values.h"
 
@@ -37,7 +38,7 @@ struct RoomFacts {
 [[nodiscard]] RoomSpec read_room(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] std::vector<Object> read_objects(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& facts);
-[[nodiscard]] Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts);
+[[nodiscard]] Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, const Instead& instead);
 [[nodiscard]] BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator);
 /// Divides all light of a scene (lamps, ambient, what glows) by the white point that it names, so that this looks white in both roads and
 /// every output.

@@ -77,10 +77,17 @@ Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
       fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
   scene.integrator = instead.integrator.value_or(scene.integrator);
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
-  scene.camera = read_camera(reader, part("camera"), facts);
+  scene.camera = read_camera(reader, part("camera"), facts, instead);
   scene.cover = read_cover(reader, part("cover"), scene.cover);
   balance_white(fields, scene);
   return scene;
+}
+
+void add_given_keys(const Node& map, const std::string& before, std::vector<GivenKey>& given) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    given.push_back({before + map.keys[i].text, map.keys[i].span});
+    if (map.items[i].kind == NodeKind::map) add_given_keys(map.items[i], given.back().path + ".", given);
+  }
 }
 
 // The order of the file, so that an author can work from top to bottom; errors that have no place come first.
@@ -102,6 +109,14 @@ Diagnostics limited(Diagnostics diagnostics) {
 
 bool is_error(const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }
 
+// What paths in a scene are relative to. A pipe (`orbc check <(…)` is /dev/fd/63) has no folder of its own: whoever filled it stands here.
+std::string folder_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::string text = path.string();
+  const bool device = text.rfind("/dev/", 0) == 0 || text.rfind("/proc/", 0) == 0;
+  return device || !std::filesystem::is_regular_file(path, error) ? "." : path.parent_path().string();
+}
+
 Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Instead& instead) {
   Result<Document> document = parse_document(source);
   if (!document) return document.error();
@@ -109,6 +124,7 @@ Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const 
   reader.diagnostics = std::move(document->faults);
   Read read{read_root(reader, document->root, instead), {}};
   read.scene.folder = folder;
+  add_given_keys(document->root, "", read.scene.given);
   if (std::none_of(reader.diagnostics.begin(), reader.diagnostics.end(), is_error) || read.scene.orbifold_span.source) {
     Diagnostics found = check(read.scene);
     std::move(found.begin(), found.end(), std::back_inserter(reader.diagnostics));
@@ -155,7 +171,7 @@ Result<Read> load_scene(const std::string& path, const Instead& instead) {
   if (text.size() > limit)
     return make_error("scene.too-large", fmt::format("{} has more bytes than a scene may have ({})", path, limit),
                       "put big data into mesh files");
-  return read_scene(SourceText{path, std::move(text)}, std::filesystem::path(path).parent_path().string(), instead);
+  return read_scene(SourceText{path, std::move(text)}, folder_of(path), instead);
 }
 
 }  // namespace orbc::scene

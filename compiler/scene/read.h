@@ -18,6 +18,8 @@ struct Read {
 /// What somebody else says instead of the scene, and what then has an effect: the command line.
 struct Instead {
   std::optional<Integrator> integrator;
+  std::optional<Projection> projection;
+  std::optional<std::array<int, 2>> size;
 };
 
 /// Reads a scene file's text. Never crashes, hangs or overflows the stack, whatever the text is; all mistakes of a file are reported at
@@ -30,7 +32,8 @@ struct Instead {
                                       const Instead& instead = {});
 [[nodiscard]] Result<Read> read_scene(const SourceText& source, const std::string& folder = {}, const Instead& instead = {});
 
-/// Reads a scene from a file; its folder is the scene's folder. Reads no more than a scene may have, even from /dev/zero.
+/// Reads a scene from a file; its folder is the scene's folder, of a pipe the current one. Reads no more than a scene may have, even from
+/// /dev/zero.
 /// Diagnostics: scene.cannot-read, and those of `read_scene`.
 [[nodiscard]] Result<Read> load_scene(const std::string& path, const Instead& instead = {});
 

@@ -104,6 +104,17 @@ void read_mask(const Fields& fields, Material& material) {
   if (material.pattern != Pattern::plain && material.pattern != Pattern::texture) conflict("solid patterns");
 }
 
+void warn_unused_keys(const Fields& fields, const Material& material) {
+  using Kind = MaterialKind;
+  const bool rough = material.kind == Kind::glossy || material.kind == Kind::metal;
+  if (!rough) fields.no_effect("roughness", "it belongs to `kind: glossy` and `kind: metal`; others are matte or perfectly smooth");
+  if (material.kind != Kind::glass) fields.no_effect("index", "it belongs to `kind: glass`");
+  if (material.kind != Kind::emissive) fields.no_effect("emission", "it belongs to `kind: emissive`");
+  const bool plain = material.pattern == Pattern::plain;
+  if (plain) fields.no_effect("cell", "it is the size of a pattern, and there is none");
+  if (plain || material.pattern == Pattern::texture) fields.no_effect("second", "it is the other colour of a pattern, and there is none");
+}
+
 void read_own_keys(const Fields& fields, Material& material) {
   material.kind = fields.choice<MaterialKind>("kind", material.kind,
                                               {{"matte", MaterialKind::matte},
@@ -120,6 +131,7 @@ void read_own_keys(const Fields& fields, Material& material) {
   material.index = fields.number("index", material.index, {1, 5});
   material.emission = fields.number("emission", material.emission, {0, 1e6});
   read_mask(fields, material);
+  warn_unused_keys(fields, material);
 }
 
 Material read_named(Reader& reader, const Node& node, const std::string& what, const Material& base) {

@@ -13,6 +13,7 @@ void warn_unused_keys(const Fields& fields, LampKind kind) {
   const bool round = kind == LampKind::sphere || kind == LampKind::disk || kind == LampKind::tube;
   if (!round) fields.no_effect("radius", "it belongs to spheres, disks and tubes");
   if (kind != LampKind::rectangle) fields.no_effect("size", "it belongs to `kind: rectangle`");
+  if (kind == LampKind::point || kind == LampKind::spot) fields.no_effect("visible", "points and spots have no body");
   if (kind != LampKind::spot) fields.no_effect("cone", "it belongs to `kind: spot`");
   if (kind == LampKind::point || kind == LampKind::sphere) fields.no_effect("to", "this lamp shines to all sides");
 }
@@ -81,7 +82,7 @@ std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& 
   return lamps;
 }
 
-Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
+Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, const Instead& instead) {
   Camera camera;
   camera.span = camera.place.span = node.span;
   const Fields fields(reader, node, "the camera", {"at", "look_at", "fov", "size", "projection"});
@@ -89,11 +90,13 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
   camera.projection = fields.choice<Projection>(
       "projection", camera.projection,
       {{"perspective", Projection::perspective}, {"panorama", Projection::panorama}, {"cylinder", Projection::cylinder}});
+  camera.projection = instead.projection.value_or(camera.projection);
   const bool perspective = camera.projection == Projection::perspective;
   if (const Node* fov = fields.find("fov")) camera.fov_span = fov->span;
   camera.fov = fields.angle("fov", camera.fov, perspective ? Range{1, 170} : Range{1, 360});
   if (camera.projection == Projection::panorama) fields.no_effect("fov", "a panorama shows all directions");
   if (const Node* size = fields.find("size")) camera.size_span = size->span, camera.size = read_picture_size(reader, *size, camera.size);
+  camera.size = instead.size.value_or(camera.size);
   const Node* look_at = fields.find("look_at");
   if (look_at) camera.look_at = {read_look_at(reader, *look_at, facts), look_at->span};
   // From the centre one cannot look at the centre

@@ -207,6 +207,12 @@ struct CoverSpec {
   bool background_expected = false; ///< instead of it the colour expected beyond, times the path's weight
 };
 
+/// A key that the author wrote, such as `cover.min_pixels`, and where. Keys inside lists are not among them.
+struct GivenKey {
+  std::string path;
+  SourceSpan span;
+};
+
 struct Scene {
   notation::Orbifold orbifold;
   SourceSpan orbifold_span;         ///< where the notation was written
@@ -220,6 +226,7 @@ struct Scene {
   BakeSpec bake;
   Camera camera;
   CoverSpec cover;
+  std::vector<GivenKey> given;      ///< in the order of the file: to tell its author what has no effect on what is made of it
   std::string folder;               ///< of the scene file; paths of meshes and textures are relative to it
   SourceSpan span;
 };

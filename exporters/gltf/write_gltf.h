@@ -23,4 +23,7 @@ struct GltfOptions {
 /// Throws: std::length_error for a GLB of 4 GiB or more.
 [[nodiscard]] std::vector<driver::File> write_gltf(const driver::Product& product, const GltfOptions& options = {});
 
+/// About how many bytes that takes, all files together, without the atlas. Error: 10 %, with nodes per copy more.
+[[nodiscard]] std::uint64_t bytes_of(const driver::Amount& amount);
+
 }  // namespace orbc::gltf

@@ -224,4 +224,13 @@ std::vector<driver::File> write_pov(const driver::Product& product, const PovOpt
   return files;
 }
 
+std::uint64_t bytes_of(const driver::Amount& amount) {
+  // Measured over all examples; indices count from 0 in each copy, so they are as long as a copy is large.
+  constexpr double kHead = 900, kCopy = 330, kVertex = 52, kNormal = 33, kTriangle = 6;
+  const auto copies = static_cast<double>(std::max<std::uint64_t>(1, amount.copies)), vertices = static_cast<double>(amount.vertices);
+  const double digits = std::floor(std::log10(std::max(1.0, vertices / copies))) + 1;
+  return static_cast<std::uint64_t>(kHead + kCopy * copies + (kVertex + (amount.normals ? kNormal : 0)) * vertices +
+                                    (kTriangle + 3 * digits) * static_cast<double>(amount.triangles));
+}
+
 }  // namespace orbc::pov

@@ -47,7 +47,7 @@ def verified(path, threshold, name, *more):
     ended = run([BIN / 'orbc', 'verify', path, '--within', '4', '--threshold', '0', '--off-edge', '1', '--json', *more, *kept], timeout=400)
     if ended.returncode:
         sys.exit(ended.stderr.decode())
-    for got in json.loads(ended.stdout):
+    for got in json.loads(ended.stdout)['pictures']:
         off = got['beyond_2_elsewhere'] / got['pixels']   # what differs lies on edges: of things, of holes, of their shadows
         check(off <= 0.01 and got['within_4'] >= threshold, f"{name}: {got['engine']} {100 * got['within_4']:.2f} % within 4/255, {100 * off:.2f} % beyond 2/255 off edges, mean {got['mean']:.3f}")
 

@@ -48,7 +48,7 @@ def main():
             done = run([BIN / 'orbc', 'verify', path, '--samples', '16', '--quality', 'normal', '--json', '--off-edge', '1'], timeout=300)
             if not done.stdout:
                 sys.exit(done.stderr.decode())
-            got = json.loads(done.stdout)[0]
+            got = json.loads(done.stdout)['pictures'][0]
             check(got['within_4'] >= 0.95 and got['within_8'] >= 0.98,
                   f'{notation}, {material}: {100 * got["within_4"]:.2f} % within 4/255, {100 * got["within_8"]:.2f} % within 8/255')
             means = []

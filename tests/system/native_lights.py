@@ -57,7 +57,7 @@ def verified(path, threshold, name):
     ended = run([BIN / 'orbc', 'verify', path, '--within', '4', '--threshold', '0', '--off-edge', '1', '--json', *more])
     if ended.returncode:
         sys.exit(ended.stderr.decode())
-    got = json.loads(ended.stdout)[0]
+    got = json.loads(ended.stdout)['pictures'][0]
     check(got['within_4'] >= threshold, f"{name}: {100 * got['within_4']:.2f} % within 4/255, mean {got['mean']:.3f}, largest {got['largest']}")
 
 

@@ -19,8 +19,8 @@ SIGNAL = (255, 0, 255)  # linear 1, 0, 1
 def verify(scene, *more):
     done = run([BIN / 'orbc', 'verify', '--json', scene, *more], timeout=300)
     try:
-        return json.loads(done.stdout)[0]
-    except (ValueError, IndexError):
+        return json.loads(done.stdout)['pictures'][0]
+    except (ValueError, LookupError):
         print(done.stderr.decode())
         return None
 

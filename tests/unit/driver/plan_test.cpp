@@ -96,8 +96,8 @@ TEST_CASE("few copies tell of all", "[driver][long]") {
       bent_copies = some.size();
       return bend::bend(atlas->room, atlas->uv, some, opened.eye, {}, executor);
     };
-    const auto planned =
-        driver::estimate(*opened.room, opened.eye, *copies, opened.scene.cover.max_bounces, ~std::uint64_t{0}, bend_some, 1);
+    const auto planned = driver::estimate(cover::contents_of(*opened.room), opened.eye, *copies, opened.scene.cover.max_bounces,
+                                          ~std::uint64_t{0}, bend_some, 1);
     REQUIRE(planned);
     CHECK(bent_copies <= 129);
     std::vector<std::size_t> all(copies->size());

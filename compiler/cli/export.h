@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+
+#include "compiler/base/result.h"
+#include "compiler/cli/commands.h"
+#include "compiler/driver/compile.h"
+#include "compiler/driver/open.h"
+
+namespace orbc::cli {
+
+/// What exporting a scene has made, in numbers.
+struct Exported {
+  driver::Report report;
+  std::string report_json;
+  Diagnostics notes;                ///< what its author should know
+  Diagnostics told;                 ///< what has been printed already, since it could not wait
+  std::uint64_t bytes = 0;          ///< of the main output alone
+};
+
+/// Compiles an opened scene and writes the files of a renderer: pov, glb or gltf, to `arguments.output`.
+/// Diagnostics: those of the driver; gltf.no-exr; among the notes gltf.native-lights-shared. Printed while it works: cli.large-export.
+[[nodiscard]] Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& arguments, const std::string& format,
+                                            const Common& common);
+
+}  // namespace orbc::cli

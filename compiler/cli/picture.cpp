@@ -1,0 +1,31 @@
+#include "compiler/cli/picture.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "compiler/cli/support.h"
+#include "compiler/mesh/image.h"
+
+namespace orbc::cli {
+
+const char* name(PictureFormat format) {
+  return format == PictureFormat::png ? "png" : format == PictureFormat::jpeg ? "jpeg" : "exr";
+}
+
+PictureFormat picture_format_of(const std::string& output, bool floats, const std::string& why) {
+  if (output == "-") return PictureFormat::png;
+  const std::string ending = lower_case(std::filesystem::path(output).extension().string());
+  if (ending == ".png") return PictureFormat::png;
+  if (ending == ".jpg" || ending == ".jpeg") return PictureFormat::jpeg;
+  if (ending == ".exr" && floats) return PictureFormat::exr;
+  if (ending == ".exr") throw UsageError(fmt::format("\"{}\": {}; end it in .png or .jpg", output, why));
+  throw UsageError(fmt::format("cannot tell the format from \"{}\"; end it in .png, .jpg{}, or use - for PNG on standard output", output,
+                               floats ? " or .exr" : ""));
+}
+
+std::string encoded(const mesh::Image& picture, PictureFormat format) {
+  return format == PictureFormat::jpeg ? mesh::encode_jpeg(picture) : mesh::encode_png(picture);
+}
+
+}  // namespace orbc::cli
