@@ -28,6 +28,7 @@ orbc_system_test(system_standard_input standard_input.py 600 render)
 orbc_system_test(system_picture_files picture_files.py 600 render)
 orbc_system_test(system_json_results json_results.py 600 render)
 orbc_system_test(system_idle_options idle_options.py 900 render)
+orbc_system_test(system_edges edges.py 900 render)
 orbc_system_test(system_verify_rooms verify_rooms.py 1800 render slow)
 orbc_system_test(system_scripts scripts.py 300 fast)
 if(NOT ORBC_SANITIZE)  # packages are made of what people use

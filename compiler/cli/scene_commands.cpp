@@ -7,6 +7,7 @@
 #include "compiler/cli/output.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
+#include "compiler/notation/euler.h"
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
 #include "compiler/room/realise.h"
@@ -17,10 +18,16 @@ namespace orbc::cli {
 int new_scene(const NewArguments& a, const Common& common) {
   notation::ParseOptions options;
   options.span = {std::make_shared<SourceText>(SourceText{"notation", a.notation}), 1, 1, a.notation.size()};
+  options.allow_non_orbifold = true;
   const auto parsed = notation::parse_with_notes(a.notation, options);
   if (!parsed) return print(parsed.error(), common), kSceneWrong;
   print(parsed->notes, common);
-  const auto room = room::realise(parsed->orbifold);
+  if (!notation::is_orbifold(parsed->orbifold))
+    print({make_warning("notation.non-orbifold-room",
+                        "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",
+                        "the scene says `allow_non_orbifold: true`; corners with integers make an orbifold", options.span)},
+          common);
+  const auto room = room::realise(parsed->orbifold, {}, true);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
   const std::string notation = notation::to_text(parsed->orbifold);
   const std::string scene = scene::starter_scene(notation, static_cast<int>(room->walls.size()), room->inradius);

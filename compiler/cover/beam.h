@@ -11,7 +11,7 @@
 namespace orbc::cover {
 
 struct BeamOptions {
-  std::uint64_t max_beams = 5'000'000;  ///< about 300 bytes each
+  std::uint64_t max_beams = 2'000'000;  ///< about 500 bytes each: a gigabyte in some seconds
   Progress progress;
 };
 

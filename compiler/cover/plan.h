@@ -18,6 +18,9 @@ struct PlanOptions {
 /// What a product takes, without the pictures.
 constexpr double kBytesPerVertex = 20, kBytesPerTriangle = 12, kBytesPerCopy = 200;
 
+/// What a beam takes while copies are unfolded by beams: the beam, what it sees, the copy it becomes (measured: 480).
+constexpr double kBytesPerBeam = 500;
+
 /// What compiling a scene will make. Of the cover alone (here) every copy counts with all triangles of the room, unsplit; what bending
 /// really makes of the copies is foreseen by driver/estimate.h.
 struct Plan {

@@ -15,8 +15,10 @@
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/estimate.h"
 #include "compiler/driver/budget.h"
+#include "compiler/driver/fitting.h"
 #include "compiler/driver/levels.h"
 #include "compiler/driver/native.h"
+#include "compiler/driver/renderer_scale.h"
 #include "compiler/driver/tail.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/notation/print.h"
@@ -72,23 +74,18 @@ ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels)
   return of;
 }
 
-/// Gives the room panels for its mirrors, and a look for each of their colours; where there is none the panels are open. Makes: which parts
-/// they are.
-std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<std::optional<scene::Color>>& colors,
-                                      const std::vector<double>& bands, bool flat) {
+/// Gives the room panels for its mirrors, and a look for each of their colours. Makes: which parts they are.
+std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<scene::Color>& colors, const std::vector<double>& bands,
+                                      bool flat) {
   const std::size_t first = room.looks.size();
-  for (const auto& color : colors) {
+  for (const scene::Color& color : colors) {
     place::Look look;
-    look.color = color.value_or(scene::Color{});
+    look.color = color;
     look.material.kind = scene::MaterialKind::emissive;   // it is the light itself
     room.looks.push_back(look);
   }
   std::vector<std::size_t> parts;
   for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(first), bands, flat)) {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < panel.triangles.size(); ++t)
-      if (colors[panel.look[t] - first]) panel.triangles[kept] = panel.triangles[t], panel.look[kept++] = panel.look[t];
-    panel.triangles.resize(kept), panel.look.resize(kept);
     parts.push_back(room.parts.size());
     room.parts.push_back(std::move(panel));
   }
@@ -117,7 +114,8 @@ Result<std::vector<cover::Copy>> unfolded(const Opened& opened, const CompileOpt
     const auto planned = cover::plan(*opened.room, opened.eye, opened.scene.cover, {options.max_memory / 2});
     if (!planned) return planned.error();
   }
-  const auto most = static_cast<std::uint64_t>(static_cast<double>(options.max_memory / 2) / cover::kBytesPerCopy);
+  const double each = cover::needs_beams(*opened.room) ? cover::kBytesPerBeam : cover::kBytesPerCopy;
+  const auto most = static_cast<std::uint64_t>(static_cast<double>(options.max_memory / 2) / each);
   return cover::unfold(*opened.room, opened.eye, opened.scene.cover, {std::min(most, cover::UnfoldOptions().max_copies), progress});
 }
 
@@ -153,7 +151,7 @@ Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, R
   ready.hangs = for_eye;
   if (options.budget && for_eye) {
     auto fitted =
-        fit_to_budget(opened, ready.levels, ready.copies, *options.budget, ready.bending, opened.expected_background, executor, progress);
+        fit_to_budget(opened, ready.levels, ready.copies, *options.budget, ready.bending, shows_beyond(opened), executor, progress);
     if (!fitted) return fitted.error();
     ready.copies = std::move(fitted->copies);
     ready.choice = std::move(fitted->choice);
@@ -161,7 +159,7 @@ Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, R
     ready.bending.max_triangles = bending_limit(*options.budget);
     ready.left_out = fitted->left_out, ready.left_out_px = fitted->left_out_px;
     ready.hangs = fitted->curtains;
-    ready.curtains_dropped = !fitted->curtains && (opened.expected_background || opened.scene.cover.min_pixels > 0 || fitted->left_out > 0);
+    ready.curtains_dropped = !fitted->curtains && (shows_beyond(opened) || opened.scene.cover.min_pixels > 0 || fitted->left_out > 0);
   } else {
     ready.choice = for_eye ? choose_levels(*opened.room, ready.levels, ready.copies, opened.eye, ready.bending)
                            : no_levels(*opened.room, ready.copies.size());
@@ -174,8 +172,7 @@ Diagnostics choose_detail(const Opened& opened, const CompileOptions& options, R
 /// Radiance as it is shown: what the twin of a lit scene draws as it is.
 void show(double exposure, Beyond& beyond) {
   beyond.color = exposure * beyond.color;
-  for (auto& color : beyond.by_height)
-    if (color) color = exposure * *color;
+  for (scene::Color& color : beyond.by_height) color = exposure * color;
 }
 
 /// What lies beyond the cover's end. In: as in `make`. Where only a weight is asked for, the room need not be looked at closely.
@@ -183,15 +180,19 @@ Beyond look(const Opened& opened, const Opened* lit, const Ready& ready, bool ex
             const Executor& executor) {
   constexpr double kRough = 0.004;   // of the room's radius
   const std::vector<double> bands = left_out ? bands_of(*opened.room, opened.eye) : std::vector<double>{};
-  Beyond nothing{0, 0, opened.scene.cover.background, std::vector<std::optional<scene::Color>>(bands.size() + 1, scene::Color{})};
-  if (purpose == Purpose::plan) return nothing;
+  // Panels are exposed like everything else, the background is not.
+  const scene::Color background = (opened.scene.exposure > 0 ? 1 / opened.scene.exposure : 1) * opened.scene.cover.background;
+  if (purpose == Purpose::plan) return {0, 0, background, std::vector<scene::Color>(bands.size() + 1)};
   if (expected || left_out) {
     const Opened& seen = lit ? *lit : opened;
     Beyond beyond = look_beyond(seen, *seen.room, {expected, left_out, bands}, executor);
     if (lit) show(lit->scene.exposure, beyond);
+    if (!expected) beyond.color = background;
     return beyond;
   }
-  return look_beyond(opened, rough(*opened.room, ready.levels, kRough * opened.room->room.circumradius), {}, executor);
+  Beyond beyond = look_beyond(opened, rough(*opened.room, ready.levels, kRough * opened.room->room.circumradius), {}, executor);
+  beyond.color = background;
+  return beyond;
 }
 
 /// Colours and models: of parts, levels, highlights and panels.
@@ -199,11 +200,12 @@ Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions&
                   const Executor& executor, const Progress& progress) {
   Stock stock = stock_of(*opened.room, ready.levels, ready.choice);
   const bool for_eye = options.bend.view == bend::View::eye, expected = ready.hangs && opened.expected_background;
+  const bool ends = ready.hangs && shows_beyond(opened);
   const LeftOut left_out = ready.hangs ? left_out_below(opened, ready.left_out_px) : LeftOut{};
   if (for_eye) ready.beyond = look(opened, lit, ready, expected, left_out, purpose, executor);
   const bool flat = may_be_flat(*opened.room, std::max(opened.scene.cover.min_pixels, ready.left_out_px));
   std::vector<std::size_t> plain, banded;
-  if (expected) plain = add_curtains(stock.room, {ready.beyond.color}, {}, false);
+  if (ends) plain = add_curtains(stock.room, {ready.beyond.color}, {}, false);
   if (left_out) banded = add_curtains(stock.room, ready.beyond.by_height, bands_of(*opened.room, opened.eye), flat);
   report(progress, "atlas", 0, 0);
   PaintOptions painting = options.paint;
@@ -351,6 +353,25 @@ Diagnostics notes_of(const CompileOptions& options, const Ready& ready) {
   return notes;
 }
 
+Result<cover::Plan> plan_once(const Opened& opened, const CompileOptions& options, const Executor& executor) {
+  std::optional<Opened> twin;
+  if (lit_natively(opened.scene)) twin.emplace(unlit_twin(opened));
+  const Opened& from = twin ? *twin : opened;
+  const auto ready = get_ready(from, nullptr, options, Purpose::plan, executor, {});
+  if (!ready) return ready.error();
+  return estimated(from, options, **ready, executor);
+}
+
+/// Why the scene cannot be made, with a hint that was tried.
+Diagnostics told(Diagnostics errors, const Opened& opened, const CompileOptions& options, const Executor& executor) {
+  const auto fits = [&](int bounces) {
+    constexpr double kSure = 1.2;   // an estimate's error
+    const auto planned = plan_once(with_bounces(opened, bounces), options, executor);
+    return planned && kSure * static_cast<double>(planned->triangles) <= static_cast<double>(options.bend.max_triangles);
+  };
+  return located(with_tried_hint(std::move(errors), opened.scene.cover.max_bounces, fits), opened.scene.span);
+}
+
 Product product_of(const Opened& opened, const CompileOptions& options, Ready& ready, bend::BentCover bent) {
   Product product;
   product.title = notation::to_text(opened.scene.orbifold);
@@ -408,27 +429,23 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   if (native) twin.emplace(unlit_twin(opened));
   const Opened& from = twin ? *twin : opened;
   auto made = make_within(from, native ? &opened : nullptr, options, executor, progress);
-  if (!made) return located(made.error(), opened.scene.span);
+  if (!made) return told(made.error(), from, options, executor);
   Compiled compiled;
   const double bend_error_px = made->bent.error_bound_px;
   compiled.product = product_of(opened, options, *made->ready, std::move(made->bent));
   Diagnostics told_of_light;
   if (native) told_of_light = add_native_light(opened, made->ready->copies, compiled.product, executor);
   if (has_error(told_of_light)) return told_of_light;
+  Diagnostics too_near = located(scale_for_renderers(compiled.product), opened.scene.camera.span);
   compiled.report = report_of(from, *made->ready, compiled.product, bend_error_px);
   compiled.notes = located(notes_of(options, *made->ready), opened.scene.span);
-  compiled.notes.insert(compiled.notes.end(), told_of_light.begin(), told_of_light.end());
+  for (const Diagnostics* more : {&told_of_light, &too_near}) compiled.notes.insert(compiled.notes.end(), more->begin(), more->end());
   return compiled;
 }
 
 Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor) {
-  std::optional<Opened> twin;
-  if (lit_natively(opened.scene)) twin.emplace(unlit_twin(opened));
-  const Opened& from = twin ? *twin : opened;
-  const auto ready = get_ready(from, nullptr, options, Purpose::plan, executor, {});
-  if (!ready) return located(ready.error(), opened.scene.span);
-  auto planned = estimated(from, options, **ready, executor);
-  if (!planned) return located(planned.error(), opened.scene.span);
+  auto planned = plan_once(opened, options, executor);
+  if (!planned) return told(planned.error(), opened, options, executor);
   return planned;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "compiler/cover/sample.h"
+
 namespace orbc::driver {
 namespace {
 

@@ -1,5 +1,7 @@
 #include "compiler/driver/paint.h"
 
+#include <algorithm>
+
 #include "compiler/driver/prepared.h"
 #include "compiler/driver/see_in.h"
 
@@ -21,6 +23,14 @@ place::PlacedRoom exposed(place::PlacedRoom room, double exposure) {
   return room;
 }
 
+/// By how much the points of a bake lie denser than its options say: these mean rooms of some units. In a tiny one no shadow would be
+/// found, and of a huge one no picture would hold all points.
+double density_for(const place::PlacedRoom& room) {
+  constexpr double kSmall = 0.25, kLarge = 64;
+  const double extent = std::max(room.room.circumradius, room.height);
+  return extent < kSmall ? kSmall / extent : extent > kLarge ? kLarge / extent : 1;
+}
+
 }  // namespace
 
 Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
@@ -39,6 +49,8 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
   light::BakeOptions bake = baking;
   bake.max_side = options.max_side;
   bake.deep = options.deep;
+  const double denser = density_for(*opened.room);
+  bake.coarse *= denser, bake.fine *= denser, bake.texture_fine *= denser;
   if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, field.options.passes = 0;
   auto baked = light::bake(room, field, bake, executor, progress);
   if (!baked) return baked.error();

@@ -70,6 +70,7 @@ struct Product {
   std::optional<NativeLight> native;         ///< nothing: the atlas holds the light
   std::vector<std::array<float, 3>> normals; ///< with `native` only: unit, parallel to positions
   bool flat_view = false;           ///< `--view disk`: the eye stands in chart coordinates
+  double scale = 1;                 ///< a power of two by which positions and lamps are multiplied (renderer_scale.h); the eye is not
 };
 
 /// A picture of the tiling, for the SVG exporter: no eye, no bending.

@@ -31,12 +31,7 @@ constexpr double kBands[] = {0.08, 0.22, 0.42, 0.68};
 
 struct Sum {
   scene::Color weight, radiance;
-  int paths = 0, cut_off = 0;
-  void add(const scene::Color& w, const scene::Color& r, bool cut = false) { add({w, r, 1, cut ? 1 : 0}); }
-  void add(const Sum& more) {
-    weight = weight + more.weight, radiance = radiance + more.radiance;
-    paths += more.paths, cut_off += more.cut_off;
-  }
+  void add(const Sum& more) { weight = weight + more.weight, radiance = radiance + more.radiance; }
   [[nodiscard]] bool empty() const { return !(largest(weight) > 0); }
   [[nodiscard]] scene::Color color() const {
     const auto share = [](double r, double w) { return w > 0 ? r / w : 0; };
@@ -142,7 +137,7 @@ class Looker {
 
   /// Those that meet a copy left out. `expected`: what the tracer shows where it cuts off.
   void merged(bool expected, Beyond& beyond) {
-    if (expected) shown_.background = beyond.color, shown_.weighs_background = true;
+    if (expected) shown_.background = beyond.color;
     constexpr int columns = kCloser * kColumns, lines = kCloser * kRows;
     std::vector<Sum> bands(options_.bands.size() + 1);
     for (const Row& row : rows(columns, lines, [&](const orbc::trace::Ray& ray, Row& row) { merged(ray, row); })) {
@@ -154,12 +149,7 @@ class Looker {
     // Too few to be met: they show what the others show.
     if (all.empty())
       for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray& ray, Row& row) { everything(ray, row); })) all.add(row.depth);
-    const double exposure = opened_.scene.exposure;
-    for (const Sum& band : bands) {
-      const scene::Color color = band.empty() ? all.color() : band.color();
-      if (!expected && 2 * band.cut_off > band.paths && exposure * largest(color) > 1) beyond.by_height.push_back(std::nullopt);
-      else beyond.by_height.push_back(color);
-    }
+    for (const Sum& band : bands) beyond.by_height.push_back(band.empty() ? all.color() : band.color());
   }
 
  private:
@@ -180,7 +170,7 @@ class Looker {
     const orbc::trace::Path path = orbc::trace::follow(scene_, ray, render::follow_options(shown_));
     if (!path.cut_off) return;
     row.lost += largest(path.weight);
-    if (options_.color) row.depth.add(path.weight, render::radiance(scene_, ray, deep_).radiance);
+    if (options_.color) row.depth.add({path.weight, render::radiance(scene_, ray, deep_).radiance});
   }
 
   void merged(const orbc::trace::Ray& ray, Row& row) const {
@@ -192,12 +182,12 @@ class Looker {
     follow.max_bounces = static_cast<int>(mirrors);
     const orbc::trace::Path short_path = orbc::trace::follow(scene_, ray, follow);
     row.merged += largest(short_path.weight);
-    row.bands[missing_.band_at(short_path, ray)].add(short_path.weight, render::radiance(scene_, path, shown_).radiance, path.cut_off);
+    row.bands[missing_.band_at(short_path, ray)].add({short_path.weight, render::radiance(scene_, path, shown_).radiance});
   }
 
   void everything(const orbc::trace::Ray& ray, Row& row) const {
     const render::Seen seen = render::radiance(scene_, ray, shown_);
-    row.depth.add(seen.path.weight, seen.radiance);
+    row.depth.add({seen.path.weight, seen.radiance});
   }
 
   const Opened& opened_;
@@ -210,6 +200,8 @@ class Looker {
 };
 
 }  // namespace
+
+bool shows_beyond(const Opened& opened) { return opened.expected_background || largest(opened.scene.cover.background) > 0; }
 
 Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor) {
   Looker looker(opened, room, options, executor);

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "compiler/bend/bend.h"
@@ -27,10 +26,12 @@ struct Beyond {
   double weight_lost = 0;      ///< of paths that are cut off by bounces or weight: largest channel, mean over the picture
   double weight_merged = 0;    ///< the same of paths that lead into copies left out for their size
   scene::Color color;          ///< radiance that is expected where paths are cut off; the scene's background where none is
-  /// Radiance that copies left out bring, as they are seen through each band of a mirror, from the floor up. Nothing: mostly the background
-  /// itself is seen there, where paths are cut off, and brighter than a panel could be: it stays open.
-  std::vector<std::optional<scene::Color>> by_height;
+  /// Radiance that copies left out bring, as they are seen through each band of a mirror, from the floor up
+  std::vector<scene::Color> by_height;
 };
+
+/// Whether paths that are cut off show anything: then exports need panels at their ends.
+[[nodiscard]] bool shows_beyond(const Opened& opened);
 
 /// Looks beyond the mirrors at which an export ends: follows a fixed grid of rays of the picture through the real mirrors, those that are
 /// cut off much deeper.

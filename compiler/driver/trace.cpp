@@ -16,10 +16,10 @@ render::DrawOptions draw_options(const Opened& opened, const light::LightField& 
   draw.max_bounces = opened.scene.cover.max_bounces;
   draw.min_weight = opened.scene.cover.min_weight;
   draw.background = opened.scene.cover.background;
-  // The film is exposed as a whole; the background is shown as it is.
+  // The film is exposed as a whole; the background is not.
   if (light.exposure > 0) draw.background = (1 / light.exposure) * draw.background, draw.white = 1 / light.exposure;
   if (opened.expected_background)
-    draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color, draw.weighs_background = true;
+    draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color;
   return draw;
 }
 

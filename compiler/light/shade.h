@@ -17,7 +17,7 @@ struct LightOptions {
   int passes = 0;                   ///< how often matte surfaces may pass light on to each other; 0: `integrator: direct`
   int leg_bounces = 12;             ///< of light that surfaces pass on: mirrors from one surface to the next,
   double leg_min_weight = 0;        ///< and the weight below which it is cut off;
-  scene::Color background;          ///< then this is seen, as it is
+  scene::Color background;          ///< then this is seen, times the weight of the path
   std::uint64_t seed = 1;           ///< of random numbers, for pictures that need them
   double cut = 1.0 / 1000;          ///< images that could add less than this to a white surface (white = 1 in the picture) are left out
 };

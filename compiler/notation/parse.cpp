@@ -15,8 +15,10 @@
 namespace orbc::notation {
 namespace {
 
-constexpr std::size_t kMaxBytes = 8192;  // 256 corners, each a fraction of seven-digit numbers in parentheses
-constexpr std::size_t kMaxDigits = 7;    // as many as kMaxOrder has
+constexpr std::size_t kMaxBytes = 8192;  // 256 corners, each the longest fraction in parentheses
+constexpr std::size_t kMaxDigits = 7;    // as many as kMaxOrder has; of a decimal number before and behind its point
+// A decimal number of so many digits is printed as a fraction: parse(to_text(o)) = o.
+constexpr std::size_t kMaxAbove = 2 * kMaxDigits, kMaxBelow = kMaxDigits + 1;
 constexpr std::size_t kQuotedCharacters = 40;
 
 enum class Kind { star, order, cross_cap, wonder_ring };
@@ -229,7 +231,9 @@ class Reader {
       if (below.empty()) return unexpected(at, "a real corner is a fraction or a decimal number: (3/2) or (2.5)");
     }
     const auto significant = [](std::string s) { return s.erase(0, s.find_first_not_of('0')); };
-    if (significant(digits).size() > kMaxDigits || (mark == U'/' ? significant(below) : below).size() > kMaxDigits)
+    const bool fraction = mark == U'/';
+    if (significant(digits).size() > (fraction ? kMaxAbove : kMaxDigits) ||
+        (fraction ? significant(below).size() > kMaxBelow : below.size() > kMaxDigits))
       return fail(error("notation.order-out-of-range", "this corner has too many digits", token, at - token,
                         fmt::format("orders are at most {}", kMaxOrder)));
     // A leading zero would make the number octal.

@@ -33,8 +33,8 @@ void take(std::vector<Net::Piece>& all, std::vector<Net::Piece>&& more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-// Cuts by one family; adds the index of the slab to each piece's tag.
-void cut_into_slabs(Space space, Net& net, const Family& lines, double cell, bool along_y) {
+// Cuts by one family; adds the index of the slab to each piece's tag. Makes: whether at most so many pieces came of it.
+bool cut_into_slabs(Space space, Net& net, const Family& lines, double cell, bool along_y, std::size_t max_pieces) {
   std::vector<Net::Piece> done, rest = std::move(net.pieces);
   for (int i = lines.first; i <= lines.last; ++i) {
     const int side = -2 - 2 * (i - lines.first) - (along_y ? 1 : 0);
@@ -42,11 +42,13 @@ void cut_into_slabs(Space space, Net& net, const Family& lines, double cell, boo
     for (Net::Piece& piece : halves.right) piece.tag += i - 1;
     take(done, std::move(halves.right));
     rest = std::move(halves.left);
+    if (done.size() + rest.size() > max_pieces) return false;
   }
   const int top = lines.last >= lines.first ? lines.last : static_cast<int>(lines.first) - 1;
   for (Net::Piece& piece : rest) piece.tag += top;
   take(done, std::move(rest));
   net.pieces = std::move(done);
+  return true;
 }
 
 // A straight cut through a half sphere has antipodal ends, and where one could cut their edge is anybody's guess. So the floor is first
@@ -78,14 +80,18 @@ Result<Net> floor_net(const room::Room& room, double cell, std::size_t max_cells
   }
   net.pieces.push_back(std::move(whole));
   if (cell == 0) return net;
+  // Of the box around a narrow room little belongs to it: the pieces are counted, the box only bounds the work.
+  constexpr double kMostOfBox = 128;
   const double u_cells = (high[0] - low[0]) / cell + 2, v_cells = (high[1] - low[1]) / cell + 2;
-  if (!(cell > 0) || !(u_cells * v_cells <= static_cast<double>(max_cells)))
+  const auto cut_all = [&] {
+    if (room.space == Space::spherical) halve_at_centre(net);
+    return cut_into_slabs(room.space, net, family(low[0], high[0], cell), cell, false, max_cells) &&
+           cut_into_slabs(room.space, net, family(low[1], high[1], cell), cell, true, max_cells);
+  };
+  if (!(cell > 0) || !(u_cells * v_cells <= kMostOfBox * static_cast<double>(max_cells)) || !cut_all())
     return make_error(
         "place.too-many-cells", fmt::format("cells of {:.4g} cut this floor into more than {} pieces", cell, max_cells),
         fmt::format("a cell of {:.2g} fits", 1.3 * std::sqrt((high[0] - low[0]) * (high[1] - low[1]) / static_cast<double>(max_cells))));
-  if (room.space == Space::spherical) halve_at_centre(net);
-  cut_into_slabs(room.space, net, family(low[0], high[0], cell), cell, false);
-  cut_into_slabs(room.space, net, family(low[1], high[1], cell), cell, true);
   for (Net::Piece& piece : net.pieces) piece.tag &= 1;
   return net;
 }

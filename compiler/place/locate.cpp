@@ -22,12 +22,19 @@ using geometry::Line;
 using geometry::Point;
 using geometry::Space;
 
+/// A length in four digits that is not more than it: what a hint names can be taken as it stands.
+std::string rounded_down(double length) {
+  if (!(length > 0) || !std::isfinite(length)) return to_text(length);
+  const double unit = std::pow(10, std::floor(std::log10(length)) - 3);
+  return to_text(std::floor(length / unit) * unit);
+}
+
 Diagnostic outside_room(const room::Room& room, const Point& x, const SourceSpan& span) {
   const Overhang over = overhang(room, x);
   const double azimuth = std::atan2(x.y, x.x), r = std::abs(geometry::log_from_point(room.space, x));
   return make_error("place.outside-room", fmt::format("this place lies {} beyond wall {}", to_text(over.distance), over.wall + 1),
                     fmt::format("it is {} from the centre; in that direction ({:.4g}deg) the room ends at {}", to_text(r),
-                                azimuth * 180 / std::numbers::pi, to_text(reach(room, azimuth))),
+                                azimuth * 180 / std::numbers::pi, rounded_down(reach(room, azimuth))),
                     span);
 }
 
@@ -39,7 +46,7 @@ Result<Point> polar(const room::Room& room, double r, double radians, const Sour
   if (!std::isfinite(r) || !std::isfinite(radians)) return not_finite(span);
   if (room.space == Space::hyperbolic && std::fabs(r) > 300)
     return make_error("place.outside-room", fmt::format("this place is {} from the centre, far outside the room", to_text(r)),
-                      fmt::format("in that direction the room ends at {}", to_text(reach(room, radians))), span);
+                      fmt::format("in that direction the room ends at {}", rounded_down(reach(room, radians))), span);
   return geometry::point_from_log(room.space, std::polar(std::fabs(r), r < 0 ? radians + std::numbers::pi : radians));
 }
 

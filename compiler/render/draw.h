@@ -20,10 +20,9 @@ struct DrawOptions {
   int paths = 8;                    ///< `integrator: path`: paths of light from a sample's surface on
   const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
   const light::BakedLight* baked = nullptr;  ///< where given, what is matte is looked up there instead of being lit
-  scene::Color background;          ///< seen, as it is, where a path is cut off
+  scene::Color background;          ///< seen where a path is cut off, times the path's weight like everything else
   /// The most that a surface shows in scenes without light (lit ones: light::white_of)
   double white = std::numeric_limits<double>::infinity();
-  bool weighs_background = false;   ///< it is seen times the path's weight instead
 };
 
 /// The reference picture: every pixel's rays followed as geodesics through real mirrors. Never unfolds, never bends.

@@ -131,7 +131,7 @@ struct Walker {
   void light(const trace::Path& path, double share, int depth, const trace::TraceScene& where) {
     add(share * path.glow);
     if (path.cut_off || path.hit.target == trace::Target::nothing)
-      return add(share * (options.weighs_background ? path.weight * options.background : options.background));
+      return add(share * (path.weight * options.background));
     trace::SurfacePoint point = trace::surface_at(where, path.last, path.hit);
     if (depth == 0) seen.surface = point, seen.hit = true;
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;

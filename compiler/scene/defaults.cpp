@@ -41,12 +41,43 @@ Frame default_frame() {
   return frame;
 }
 
-int default_max_bounces(const notation::Orbifold& orbifold) {
-  constexpr int kMost = 12, kCopies = 200;
-  if (!notation::is_orbifold(orbifold) || curvature_sign(orbifold) >= 0) return kMost;
-  int bounces = 1;
-  while (bounces < kMost && notation::copies_up_to(orbifold, bounces + 1) <= kCopies) ++bounces;
-  return bounces;
+namespace {
+
+constexpr int kUsual = 12;               // bounces
+constexpr int kHyperbolicCopies = 200;
+constexpr int kSphericalCopies = 1000;   // more than the largest group with three corners below *22(250) has
+
+/// The most bounces whose copies are at most `most`, at least 1.
+/// In: copies by the number of walls on the way, and by how many storeys lie n mirrors away: mirrors on floor and ceiling.
+int bounces_within(const std::vector<Integer>& copies, int level_mirrors, const Integer& most) {
+  const auto storeys = [&](std::size_t n) { return n == 0 ? 1 : level_mirrors == 2 ? 2 : level_mirrors == 1 && n == 1 ? 1 : 0; };
+  Integer sum = 1;
+  int bounces = 0;
+  for (std::size_t n = 1; n < copies.size(); ++n) {
+    for (std::size_t walls = 0; walls <= n; ++walls) sum += storeys(n - walls) * copies[walls];
+    if (sum > most) break;
+    bounces = static_cast<int>(n);
+  }
+  return std::max(1, bounces);
+}
+
+/// The orbifold whose corners are the next integers above: its room is wider and has more copies.
+notation::Orbifold rounded_up(const notation::Orbifold& orbifold) {
+  notation::Orbifold whole = orbifold;
+  for (Rational& corner : whole.corners) corner = Rational(Integer((numerator(corner) + denominator(corner) - 1) / denominator(corner)));
+  return whole;
+}
+
+}  // namespace
+
+int default_max_bounces(const notation::Orbifold& orbifold, int level_mirrors) {
+  constexpr int kFarthest = 64;   // *237, whose copies grow most slowly, has 200 at 17
+  const int sign = curvature_sign(orbifold);
+  if (sign < 0) return bounces_within(notation::copies_per_length(rounded_up(orbifold), kFarthest), level_mirrors, kHyperbolicCopies);
+  if (sign == 0 || !notation::is_orbifold(orbifold)) return kUsual;
+  const int whole = notation::longest_length(orbifold).value();
+  if (whole <= kUsual || *notation::group_order(orbifold) <= kSphericalCopies) return std::max(kUsual, whole);
+  return bounces_within(notation::copies_per_length(orbifold, kSphericalCopies), 0, kSphericalCopies);
 }
 
 Scene default_scene(const notation::Orbifold& orbifold) {

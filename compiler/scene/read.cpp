@@ -51,6 +51,8 @@ Node empty_map() {
   return node;
 }
 
+int level_mirrors(const RoomSpec& room) { return (room.floor.mirror ? 1 : 0) + (room.ceiling.mirror ? 1 : 0); }
+
 Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
   Scene scene;
   scene.span = root.span;
@@ -78,6 +80,7 @@ Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
   scene.integrator = instead.integrator.value_or(scene.integrator);
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
   scene.camera = read_camera(reader, part("camera"), facts, instead);
+  if (scene.orbifold_span.source) scene.cover.max_bounces = default_max_bounces(scene.orbifold, level_mirrors(scene.room));
   scene.cover = read_cover(reader, part("cover"), scene.cover);
   balance_white(fields, scene);
   return scene;

@@ -135,7 +135,8 @@ Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
                  "write - mesh: meshes/statue.obj or - sphere: {radius: 0.1}");
   if (!shape.empty()) read_shape(fields, shape, facts, object);
   if (const Node* size = fields.find("size")) object.size = fields.number("size", 1, kLength), object.size_span = size->span;
-  object.embedding = fields.choice<Embedding>("embedding", object.embedding,
+  // Bodies of stated lengths keep them: along straight lines from their axis every length is true.
+  object.embedding = fields.choice<Embedding>("embedding", shape == "mesh" ? Embedding::conformal : Embedding::exponential,
                                               {{"conformal", Embedding::conformal}, {"exponential", Embedding::exponential}});
   const auto* mesh = std::get_if<MeshFile>(&object.shape);
   const std::string ending = mesh ? split(mesh->path.value).ending : "";

@@ -138,7 +138,7 @@ struct Object {
   std::variant<MeshFile, SphereSpec, CylinderSpec, BoxSpec, TorusSpec, TorusKnotSpec, BeamSpec> shape;
   std::optional<double> size;       ///< longest horizontal extent, intrinsic length; missing = the file's own units
   SourceSpan size_span;
-  Embedding embedding = Embedding::conformal;
+  Embedding embedding = Embedding::conformal;   ///< when not given: of mesh files conformal, of bodies of stated lengths exponential
   char up = 'z';                    ///< which axis of the mesh file points up: 'y' or 'z' (glTF: y)
   Place place;
   Angle turn;
@@ -203,8 +203,8 @@ struct CoverSpec {
   double min_weight = 0;            ///< paths whose weight (largest channel) is below it end
   /// Exports only: copies smaller than this in the picture are merged: a panel of their mean colour stands for them
   double min_pixels = 0;
-  Color background{0, 0, 0};        ///< what is seen where a path ends at a mirror
-  bool background_expected = false; ///< instead of it the colour expected beyond, times the path's weight
+  Color background{0, 0, 0};        ///< what is seen where a path ends at a mirror, times the path's weight
+  bool background_expected = false; ///< instead of it the colour expected beyond
 };
 
 /// A key that the author wrote, such as `cover.min_pixels`, and where. Keys inside lists are not among them.

@@ -20,7 +20,7 @@ struct FollowOptions {
 /// A ray followed through real mirrors to the first thing that is none.
 struct Path {
   Hit hit;                          ///< the end; t counts on the last piece. nothing: max_length reached, or cut off
-  bool cut_off = false;             ///< ended at a mirror by max_bounces or min_weight: shows the background as it is
+  bool cut_off = false;             ///< ended at a mirror by max_bounces or min_weight: shows the background, times `weight`
   Ray last;                         ///< the last straight piece, in room coordinates
   double length = 0;                ///< of the whole path, `FollowOptions::length` included
   int bounces = 0;

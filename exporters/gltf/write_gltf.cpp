@@ -76,6 +76,7 @@ void write_camera(Json& json, const Product& product) {
   json.key("orbc_width").number(eye.width).key("orbc_height").number(eye.height);
   json.key("orbc_fov_deg").number(static_cast<float>(eye.fov.degrees()));
   json.key("orbc_background").numbers(floats(product.background));
+  if (product.scale != 1) json.key("orbc_scale").number(product.scale);
   json.end_object().end_object().end_array();
 }
 

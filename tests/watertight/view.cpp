@@ -16,6 +16,7 @@ using geometry::Vector3;
 driver::Opened open_or_fail(const std::string& path) {
   auto opened = driver::open_scene(path);
   if (!opened) FAIL(path + ": " + to_text(opened.error()));
+  opened->scene.cover.background = {};   // no panels where paths are cut off: they would hide holes
   return std::move(opened).value();
 }
 

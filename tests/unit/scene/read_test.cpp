@@ -39,7 +39,7 @@ TEST_CASE("the smallest scene is two lines and gets every default", "[scene]") {
   CHECK(scene.room.ceiling.material.pattern == Pattern::plain);
   CHECK(scene.room.ceiling.material.color.g > 0.7);
   CHECK(scene.lamps.empty());
-  CHECK(scene.cover.max_bounces == 12);
+  CHECK(scene.cover.max_bounces == 4);   // 166 copies
   CHECK(scene.camera.size == std::array<int, 2>{800, 600});
   CHECK(scene.camera.fov.degrees() == Approx(75));
   CHECK(std::holds_alternative<LookDirection>(scene.camera.look_at.value));
