@@ -12,6 +12,7 @@ orbc_system_test(system_pov_colours pov_colours.py 300 render)
 orbc_system_test(system_cameras_povray cameras_povray.py 300 render)
 orbc_system_test(system_povray_pipe povray_pipe.py 400 render)
 orbc_system_test(system_gltf_valid gltf_valid.py 300 fast)
+orbc_system_test(system_objects_gltf objects_gltf.py 600 render)
 orbc_system_test(system_svg_pictures svg_pictures.py 300 fast)
 orbc_system_test(system_blender blender.py 600 render slow)
 

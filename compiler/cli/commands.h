@@ -58,6 +58,7 @@ struct CompileArguments {
   bool no_lod = false;              ///< every copy in all detail
   std::string report;               ///< a file for the report as JSON; "-" = standard output
   bool nodes_per_copy = false;
+  bool nodes_per_object = false;
   bool highlights = true;           ///< of glossy and metal surfaces, baked for the eye
   int max_atlas = 16384;            ///< pixels a side
   std::string model = "disk";       ///< svg: disk, klein, plane

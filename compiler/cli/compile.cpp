@@ -62,7 +62,7 @@ int write_tiling(const driver::Opened& opened, const CompileArguments& a, const 
 }
 
 std::vector<driver::File> exported(const driver::Product& product, const std::string& format, const std::string& output,
-                                   bool nodes_per_copy) {
+                                   const CompileArguments& a) {
   if (format == "pov") {
     pov::PovOptions options;
     options.name = stem_of(output);
@@ -72,8 +72,16 @@ std::vector<driver::File> exported(const driver::Product& product, const std::st
   gltf::GltfOptions options;
   options.name = stem_of(output);
   options.binary = format == "glb";
-  options.nodes_per_copy = nodes_per_copy;
+  options.nodes_per_copy = a.nodes_per_copy;
+  options.nodes_per_object = a.nodes_per_object;
   return gltf::write_gltf(product, options);
+}
+
+void check_nodes(const CompileArguments& a, const std::string& format) {
+  if (!a.nodes_per_object) return;
+  if (a.nodes_per_copy)
+    throw UsageError("--nodes-per-copy and --nodes-per-object part the same triangles in two ways; choose one of them");
+  if (format != "glb" && format != "gltf") throw UsageError("--nodes-per-object is for .glb and .gltf: other formats have no nodes");
 }
 
 Diagnostics notes_of(const driver::Compiled& compiled, const std::string& format) {
@@ -93,6 +101,7 @@ driver::CompileOptions compile_options(const CompileArguments& a) {
   if (a.max_triangles && options.bend.view == bend::View::eye) options.budget = *a.max_triangles;
   else if (a.max_triangles) options.bend.max_triangles = *a.max_triangles;
   options.levels = !a.no_lod;
+  options.by_object = a.nodes_per_object;
   options.paint.highlights = a.highlights;
   options.paint.max_side = a.max_atlas;
   options.max_memory = parse_bytes(a.max_memory);
@@ -165,7 +174,7 @@ Result<Exported> export_scene(const driver::Opened& opened, const CompileArgumen
   if (!compiled) return compiled.error();
   Exported result{compiled->report, driver::report_json(*compiled), notes_of(*compiled, format), large, 0};
   report(bar.progress(), "writing", 0, 0);
-  result.bytes = write_files(exported(compiled->product, format, a.output, a.nodes_per_copy), a.output);
+  result.bytes = write_files(exported(compiled->product, format, a.output, a), a.output);
   if (!a.report.empty()) write_output(a.report, result.report_json);
   return result;
 }
@@ -174,6 +183,7 @@ int compile(const CompileArguments& a, const Common& common) {
   if (a.output.empty() && !a.plan) throw UsageError("say where to write: -o FILE, or -o - for standard output");
   const std::string format = a.plan ? "glb" : format_of(a);
   refuse_what_cannot_be(a, format, common);
+  check_nodes(a, format);
   (void)compile_options(a);   // mistakes on the command line come before those of the scene
   auto opened = driver::open_scene(a.scene.scene, overrides_of(a.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;

@@ -21,6 +21,8 @@ void define_compile(Program& program) {
   add_compile_options(*c, a);
   c->add_option("--report", a.report, "Write copies, triangles and error bounds as JSON")->type_name("FILE");
   c->add_flag("--nodes-per-copy", a.nodes_per_copy, "glTF: one node for every copy, so that copies can be clicked");
+  c->add_flag("--nodes-per-object", a.nodes_per_object,
+              "glTF: one node and material for every object, of all its copies, under its name: to be hidden and restyled");
   c->add_option("--model", a.model, "SVG: disk, klein or plane")
       ->capture_default_str()
       ->check(CLI::IsMember({"disk", "klein", "plane"}))

@@ -5,6 +5,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/draw.h"
 #include "compiler/cli/effects.h"
+#include "compiler/cli/lens.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/picture.h"
 #include "compiler/cli/progress_bar.h"
@@ -82,6 +83,7 @@ int render_elsewhere(const driver::Opened& opened, const RenderArguments& a, Pic
 }
 
 int render_here(const driver::Opened& opened, const RenderArguments& a, PictureFormat format, const Common& common) {
+  tell_of_lens(opened, a.samples, common);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   write_output(a.compile.output, format == PictureFormat::exr

@@ -8,6 +8,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/draw.h"
 #include "compiler/cli/effects.h"
+#include "compiler/cli/lens.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/picture.h"
 #include "compiler/cli/progress_bar.h"
@@ -103,6 +104,7 @@ int verify(const VerifyArguments& a, const Common& common) {
   const unsigned targets = kTraced | kPov | (a.blender ? unsigned{kGltf} : 0);
   append(opened->notes, without_effect(common.given, {targets, false, false, false, a.samples}, *opened));
   print(opened->notes, common);
+  leave_out_lens(*opened, common);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   bar.clear();

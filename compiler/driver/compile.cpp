@@ -13,8 +13,9 @@
 #include "compiler/cover/beam.h"
 #include "compiler/cover/plan.h"
 #include "compiler/cover/unfold.h"
-#include "compiler/driver/estimate.h"
 #include "compiler/driver/budget.h"
+#include "compiler/driver/by_object.h"
+#include "compiler/driver/estimate.h"
 #include "compiler/driver/fitting.h"
 #include "compiler/driver/levels.h"
 #include "compiler/driver/native.h"
@@ -74,24 +75,6 @@ ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels)
   return of;
 }
 
-/// Gives the room panels for its mirrors, and a look for each of their colours. Makes: which parts they are.
-std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<scene::Color>& colors, const std::vector<double>& bands,
-                                      bool flat) {
-  const std::size_t first = room.looks.size();
-  for (const scene::Color& color : colors) {
-    place::Look look;
-    look.color = color;
-    look.material.kind = scene::MaterialKind::emissive;   // it is the light itself
-    room.looks.push_back(look);
-  }
-  std::vector<std::size_t> parts;
-  for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(first), bands, flat)) {
-    parts.push_back(room.parts.size());
-    room.parts.push_back(std::move(panel));
-  }
-  return parts;
-}
-
 /// Why a scene cannot be compiled at all.
 std::optional<Diagnostic> refusal(const Opened& opened, const CompileOptions& options, const std::vector<cover::Copy>& copies) {
   if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(),
@@ -136,6 +119,7 @@ struct Ready {
   LevelTally tally;
   Beyond beyond;
   std::vector<Shine> shine;     ///< per copy, where what glows has copies of its own
+  ByObject objects;             ///< where copies stand object by object
 };
 
 /// What is done for the product itself, and left undone where only its triangles are asked for.
@@ -290,6 +274,17 @@ void part_what_glows(Ready& ready) {
   }
 }
 
+/// Draws every object's copies together: each copy as often as it shows objects.
+void part_objects(Ready& ready) {
+  ready.objects = part_by_object(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy);
+  for (std::size_t i = ready.copies.size(); i < ready.objects.copy_of_entry.size(); ++i) {
+    const std::size_t of = ready.objects.copy_of_entry[i];
+    ready.copies.push_back(ready.copies[of]);
+    ready.tally.level_of_copy.push_back(ready.tally.level_of_copy[of]);
+    if (!ready.shine.empty()) ready.shine.push_back(ready.shine[of]);
+  }
+}
+
 /// Whether the copies may take more than is allowed; splitting multiplies their triangles, but not by this.
 bool may_exceed(const CompileOptions& options, const Ready& ready) {
   constexpr double kSplit = 32;
@@ -313,6 +308,7 @@ Result<Made> make(const Opened& opened, const Opened* lit, const CompileOptions&
   if (lit) part_what_glows(ready);
   if (may_exceed(options, ready))
     if (const auto planned = estimated(opened, options, ready, executor); !planned) return planned.error();
+  if (options.by_object) part_objects(ready);
   auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending,
                          executor, progress);
   if (!bent) return bent.error();
@@ -337,8 +333,12 @@ Result<Made> make_within(const Opened& opened, const Opened* lit, const CompileO
   }
 }
 
-Diagnostics notes_of(const CompileOptions& options, const Ready& ready) {
+Diagnostics notes_of(const Opened& opened, const CompileOptions& options, const Ready& ready) {
   Diagnostics notes;
+  if (opened.eye.lens && options.bend.view == bend::View::eye)
+    notes.push_back(make_warning("driver.no-lens",
+                                 "exports belong to a pinhole: everything is sharp in them, the camera's lens is left out",
+                                 "draw it with the tracer (`orbc trace`)", opened.scene.camera.lens->radius_span));
   const std::string budget = fmt::format("--max-triangles {}", options.budget.value_or(0));
   if (ready.left_out > 0)
     notes.push_back(make_warning(
@@ -385,6 +385,11 @@ Product product_of(const Opened& opened, const CompileOptions& options, Ready& r
   product.copies = drawn(ready.copies, bent.copies, opened.eye);
   for (std::size_t i = 0; i < product.copies.size(); ++i) product.copies[i].level = ready.tally.level_of_copy[i];
   for (std::size_t i = 0; i < ready.shine.size(); ++i) product.copies[i].shine = ready.shine[i];
+  for (std::size_t i = 0; i < ready.objects.object_of_entry.size(); ++i) {
+    product.copies[i].object = ready.objects.object_of_entry[i];
+    if (ready.objects.copy_of_entry[i] != i) product.copies[i].again_of = ready.objects.copy_of_entry[i];
+  }
+  product.objects = ready.objects.names;
   product.positions = std::move(bent.positions);
   product.uv = std::move(bent.uv);
   product.indices = std::move(bent.indices);
@@ -394,8 +399,7 @@ Product product_of(const Opened& opened, const CompileOptions& options, Ready& r
 
 Report report_of(const Opened& opened, const Ready& ready, const Product& product, double bend_error_px) {
   Report r;
-  r.copies = static_cast<std::uint64_t>(
-      std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit; }));
+  r.copies = static_cast<std::uint64_t>(std::count_if(product.copies.begin(), product.copies.end(), is_listed));
   r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
   r.error_bound_px = bend_error_px + ready.choice.error_px;
   r.highlights = ready.painted.highlights.counts;
@@ -406,7 +410,7 @@ Report report_of(const Opened& opened, const Ready& ready, const Product& produc
   r.curtains = ready.curtains, r.curtains_dropped = ready.curtains_dropped;
   std::set<std::string> words;
   for (const DrawnCopy& copy : product.copies) {
-    if (copy.shine != Shine::lit) continue;
+    if (!is_listed(copy)) continue;
     words.insert(cover::to_string(copy.word));
     r.beams += copy.wedge ? 1 : 0;
     r.longest_word = std::max(r.longest_word, static_cast<int>(copy.word.size()));
@@ -438,7 +442,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   if (has_error(told_of_light)) return told_of_light;
   Diagnostics too_near = located(scale_for_renderers(compiled.product), opened.scene.camera.span);
   compiled.report = report_of(from, *made->ready, compiled.product, bend_error_px);
-  compiled.notes = located(notes_of(options, *made->ready), opened.scene.span);
+  compiled.notes = located(notes_of(opened, options, *made->ready), opened.scene.span);
   for (const Diagnostics* more : {&told_of_light, &too_near}) compiled.notes.insert(compiled.notes.end(), more->begin(), more->end());
   return compiled;
 }

@@ -22,6 +22,7 @@ struct CompileOptions {
   bend::BendOptions bend;
   PaintOptions paint;
   std::optional<std::uint64_t> budget;  ///< triangles: where more would come out, the picture's error is let grow until they suffice
+  bool by_object = false;             ///< copies stand in the product object by object, for exporters that give each a node of its own
   bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within `bend.tolerance_px`, too
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< half of it for the product, half for the file that is made of it
   /// Told before light is baked what will come of it, where that is much; may be called more than once; or nothing
@@ -63,7 +64,7 @@ struct Compiled {
 /// unfold → levels → atlas → plan → bend: the upper road of compiler/README.md.
 /// Makes:       the same product for any executor; with a budget at most so many triangles. Copies left out for their size in the picture
 ///              (`min_pixels`, or a budget) are hidden by panels in the mirrors through which they are seen, in the colour expected there.
-/// Diagnostics: those of cover, light and bend. Notes: driver.copies-left-out, driver.no-curtains.
+/// Diagnostics: those of cover, light and bend. Notes: driver.copies-left-out, driver.no-curtains, driver.no-lens.
 [[nodiscard]] Result<Compiled> compile(const Opened& opened, const CompileOptions& options, const Executor& executor,
                                        const Progress& progress = {});
 

@@ -171,7 +171,7 @@ Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy
   if (!found) return located(found.error(), opened.scene.bake.mirrors_span);
   const std::vector<light::LampImage>& images = *found;
   const auto lit = static_cast<std::size_t>(
-      std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit; }));
+      std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit && !c.again_of; }));
   if (lit * images.size() > kMaxNativeLamps) {
     return {make_error("driver.too-many-lamps",
                        fmt::format("{} copies with {} images of lamps each are more lamps than the {} that a renderer is given", lit,
@@ -185,7 +185,7 @@ Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy
   std::vector<Shape> shapes;
   for (const light::LampImage& image : images) shapes.push_back(shape_of(space, hung->lamps[static_cast<std::size_t>(image.lamp)], image));
   for (std::size_t c = 0; c < product.copies.size(); ++c) {
-    if (product.copies[c].shine != Shine::lit) continue;
+    if (product.copies[c].shine != Shine::lit || product.copies[c].again_of) continue;
     const IntoCopy into{{space, geometry::matrix(geometry::inverse(opened.eye.room_from_eye) * copies[c].cover_from_room), copies[c].sheet},
                         copies[c].storey};
     for (std::size_t i = 0; i < images.size(); ++i) {

@@ -34,7 +34,12 @@ struct DrawnCopy {
   int level = 0;                    ///< coarsest level of detail among its parts; 0 = all of it
   std::optional<cover::Wedge> wedge;  ///< the bearings in which it is seen, if not all of it is
   Shine shine = Shine::lit;
+  std::optional<std::size_t> object = std::nullopt;   ///< by object: whose triangles these are, an index into Product::objects
+  std::optional<std::size_t> again_of = std::nullopt; ///< by object: the earlier entry, of another object, that stands for the same copy
 };
+
+/// Whether a report lists it: what glows is listed with its room, and a copy once, whatever objects it is parted into.
+[[nodiscard]] inline bool is_listed(const DrawnCopy& copy) { return copy.shine == Shine::lit && !copy.again_of; }
 
 /// An image of a lamp in eye coordinates, for the renderer to light one copy with.
 struct NativeLamp {
@@ -67,6 +72,7 @@ struct Product {
   std::vector<std::array<float, 2>> uv;      ///< into the atlas, v from top to bottom (glTF)
   std::vector<std::uint32_t> indices;        ///< absolute, three a triangle
   std::vector<DrawnCopy> copies;
+  std::vector<std::string> objects;          ///< by object: names, in the order in which their copies follow one another; else empty
   std::optional<NativeLight> native;         ///< nothing: the atlas holds the light
   std::vector<std::array<float, 3>> normals; ///< with `native` only: unit, parallel to positions
   bool flat_view = false;           ///< `--view disk`: the eye stands in chart coordinates

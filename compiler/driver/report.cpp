@@ -48,15 +48,19 @@ std::string report_json(const Compiled& compiled) {
     for (const ToldLevels& of : r.levels) levels.push_back({{"part", of.part}, {"triangles", of.triangles}, {"error", of.error}});
   }
   nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
-  for (const DrawnCopy& c : compiled.product.copies) {
-    if (c.shine != Shine::lit) continue;   // listed with its room
+  const std::vector<DrawnCopy>& copies = compiled.product.copies;
+  std::vector<std::size_t> triangles(copies.size());
+  for (std::size_t i = 0; i < copies.size(); ++i) triangles[copies[i].again_of.value_or(i)] += copies[i].index_count / 3;
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    const DrawnCopy& c = copies[i];
+    if (!is_listed(c)) continue;
     list.push_back({{"word", cover::to_string(c.word)},
                     {"bounces", c.bounces},
                     {"sheet", c.sheet},
                     {"mirrored", c.reversing},
                     {"weight", {c.tint.r, c.tint.g, c.tint.b}},
                     {"distance", c.distance},
-                    {"triangles", c.index_count / 3},
+                    {"triangles", triangles[i]},
                     {"level", c.level}});
     if (c.storey != 0) list.back()["storey"] = c.storey;
     if (c.wedge) list.back()["wedge_deg"] = {degrees_of(c.wedge->from), degrees_of(c.wedge->to)};

@@ -338,4 +338,21 @@ std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copi
   return hung;
 }
 
+std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<scene::Color>& colors, const std::vector<double>& bands,
+                                      bool flat) {
+  const std::size_t first = room.looks.size();
+  for (const scene::Color& color : colors) {
+    place::Look look;
+    look.color = color;
+    look.material.kind = scene::MaterialKind::emissive;   // it is the light itself
+    room.looks.push_back(look);
+  }
+  std::vector<std::size_t> parts;
+  for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(first), bands, flat)) {
+    parts.push_back(room.parts.size());
+    room.parts.push_back(std::move(panel));
+  }
+  return parts;
+}
+
 }  // namespace orbc::driver

@@ -85,4 +85,8 @@ struct Curtains {
 std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copies, const Curtains& curtains,
                    std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy);
 
+/// Gives the room panels for its mirrors, and a look for each of their colours. Makes: which parts they are.
+[[nodiscard]] std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<scene::Color>& colors,
+                                                    const std::vector<double>& bands, bool flat);
+
 }  // namespace orbc::driver

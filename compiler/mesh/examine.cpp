@@ -235,31 +235,24 @@ Diagnostics warnings_of(const Examination& e, const std::string& name) {
     out.push_back(make_warning("mesh.inside-out", fmt::format("{}: is inside out (its signed volume is {:.4g})", name, e.volume),
                                "turn its normals around in the program that made it"));
   }
-  if (e.bad_edges > 0) {
-    out.push_back(make_warning("mesh.not-manifold",
-                               fmt::format("{}: {} edges have three or more triangles, one near {}", name, e.bad_edges, at(e.bad_at)),
-                               "parts that touch along an edge are drawn right, but are no closed surface"));
-  }
   if (e.turned_edges > 0) {
     out.push_back(make_warning(
         "mesh.turned-triangles",
         fmt::format("{}: at {} edges the two triangles disagree which side is outside, one near {}", name, e.turned_edges, at(e.turned_at)),
         "make the normals consistent in the program that made it"));
   }
-  if (e.degenerate > 0) {
-    out.push_back(make_warning("mesh.degenerate-triangles",
-                               fmt::format("{}: {} triangles have no area, one near {}", name, e.degenerate, at(e.degenerate_at))));
-  }
-  if (e.crossings > 0) {
-    out.push_back(make_warning("mesh.self-intersections",
-                               fmt::format("{}: {}{} pairs of triangles cross, one near {}", name, e.crossings_known ? "" : "at least ",
-                                           e.crossings, at(e.crossing_at)),
-                               "it is drawn as it is; unite the parts to have one surface"));
-  }
-  if (e.open_edges > 0) {
-    out.push_back(make_note("mesh.open", fmt::format("{}: is open: {} border edges, one near {}; it is centred by its surface", name,
-                                                     e.open_edges, at(e.open_at))));
-  }
+  // What follows is drawn as it is, and looks right.
+  if (e.bad_edges > 0)
+    out.push_back(make_note("mesh.not-manifold", fmt::format("{}: {} edges have three or more triangles, one near {}", name, e.bad_edges,
+                                                             at(e.bad_at))));
+  if (e.degenerate > 0)
+    out.push_back(make_note("mesh.degenerate-triangles", fmt::format("{}: {} triangles have no area", name, e.degenerate)));
+  if (e.crossings > 0)
+    out.push_back(make_note("mesh.self-intersections", fmt::format("{}: {}{} pairs of triangles cross, one near {}", name,
+                                                                   e.crossings_known ? "" : "at least ", e.crossings, at(e.crossing_at))));
+  if (e.open_edges > 0)
+    out.push_back(
+        make_note("mesh.open", fmt::format("{}: is open ({} border edges), so it is centred by its surface", name, e.open_edges)));
   return out;
 }
 

@@ -37,8 +37,8 @@ struct ExamineOptions {
 ///                 that share a position are not compared, touching does not count: a report, not a proof.
 [[nodiscard]] Examination examine(const Mesh& mesh, const ExamineOptions& options = {});
 
-/// What an author should know of it: mesh.inside-out, mesh.not-manifold, mesh.turned-triangles, mesh.degenerate-triangles,
-/// mesh.self-intersections (warnings), mesh.open (note). Each says where.
+/// What an author should know of it: mesh.inside-out, mesh.turned-triangles (warnings: light falls on the wrong side);
+/// mesh.not-manifold, mesh.degenerate-triangles, mesh.self-intersections, mesh.open (notes: it is drawn as it is, and looks right).
 [[nodiscard]] Diagnostics warnings_of(const Examination& examination, const std::string& name);
 
 /// Turns every triangle over.

@@ -28,7 +28,7 @@ struct Loaded {
 ///               node transforms of glTF applied; vertices that no triangle uses are left out.
 /// Diagnostics:  mesh.missing-file, mesh.not-a-file, mesh.unknown-format, mesh.too-big, mesh.truncated, mesh.bad-header, mesh.bad-number,
 ///               mesh.not-finite, mesh.bad-index, mesh.no-triangles, mesh.bad-gltf, mesh.unsupported, mesh.bad-reference, mesh.bad-texture;
-///               warnings: mesh.bad-texture, mesh.skipped-faces, mesh.too-many-looks, mesh.ignored.
+///               warnings: mesh.bad-texture, mesh.too-many-looks, mesh.ignored; note: mesh.skipped-faces.
 /// Not promised: vertex colours, normals, animation, skins, morph targets: they are read over.
 [[nodiscard]] Result<Loaded> load_mesh(const std::string& path, const LoadOptions& options = {});
 

@@ -54,7 +54,7 @@ class ObjSieve {
     }
     if (!materials_used_) sieved_.look.clear(), sieved_.looks.clear();
     if (skipped_ > 0) {
-      sieved_.warnings.push_back(make_warning(
+      sieved_.warnings.push_back(make_note(
           "mesh.skipped-faces", fmt::format("{}: {} faces with fewer than three different vertices are left out", name_, skipped_)));
     }
     return std::move(sieved_);

@@ -149,7 +149,7 @@ Result<Loaded> to_mesh(const Soup& soup, const std::string& name, const LoadOpti
   }
   if (skipped > 0) {
     loaded.warnings.push_back(
-        make_warning("mesh.skipped-faces",
+        make_note("mesh.skipped-faces",
                      fmt::format("{}: {} of {} faces use fewer than three different vertices and are left out", name, skipped, faces)));
   }
   return loaded;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -43,7 +44,78 @@ double embedded_length(Space space, scene::Embedding embedding, double low, doub
   return 2 * (geometry::atan_k(space, high / 2) - geometry::atan_k(space, low / 2));
 }
 
-Vector3 standing(const Vector3& p, char up) { return up == 'y' ? Vector3{p.x, -p.z, p.y} : p; }
+Vector3 standing(const Vector3& p, scene::Axis up) {
+  switch (up) {
+    case scene::Axis::plus_x:
+      return {-p.z, p.y, p.x};
+    case scene::Axis::minus_x:
+      return {p.z, p.y, -p.x};
+    case scene::Axis::plus_y:
+      return {p.x, -p.z, p.y};
+    case scene::Axis::minus_y:
+      return {p.x, p.z, -p.y};
+    case scene::Axis::minus_z:
+      return {p.x, -p.y, -p.z};
+    default:
+      return p;
+  }
+}
+
+// A turn in a plane; quarter turns are exact, so that a box stays a box.
+struct PlaneTurn {
+  double c = 1, s = 0;
+};
+
+PlaneTurn plane_turn(const Angle& angle) {
+  const double quarters = angle.radians / (std::numbers::pi / 2), whole = std::round(quarters);
+  if (std::fabs(quarters - whole) > 1e-15 * std::fmax(1, std::fabs(quarters))) return {std::cos(angle.radians), std::sin(angle.radians)};
+  constexpr double kCos[] = {1, 0, -1, 0}, kSin[] = {0, 1, 0, -1};
+  const auto k = static_cast<std::size_t>(std::fmod(std::fmod(whole, 4) + 4, 4));
+  return {kCos[k], kSin[k]};
+}
+
+/// What is done to a mesh before it is centred and stands: `up`, then `scale`, then `rotate`.
+class Pose {
+ public:
+  explicit Pose(const scene::Object& object)
+      : up_(object.up),
+        scale_(object.scale),
+        about_{plane_turn(object.rotate[0]), plane_turn(object.rotate[1]), plane_turn(object.rotate[2])} {}
+
+  [[nodiscard]] bool is_scaled() const { return scale_ != std::array<double, 3>{1, 1, 1}; }
+  [[nodiscard]] bool is_mirrored() const { return scale_[0] * scale_[1] * scale_[2] < 0; }
+  [[nodiscard]] Vector3 operator()(const Vector3& own) const {
+    Vector3 p = standing(own, up_);
+    p = {scale_[0] * p.x, scale_[1] * p.y, scale_[2] * p.z};
+    const auto& [x, y, z] = about_;
+    p = {p.x, x.c * p.y - x.s * p.z, x.s * p.y + x.c * p.z};
+    p = {y.c * p.x + y.s * p.z, p.y, y.c * p.z - y.s * p.x};
+    return {z.c * p.x - z.s * p.y, z.s * p.x + z.c * p.y, p.z};
+  }
+  /// Takes `rotate` back: solid patterns turn with the object.
+  [[nodiscard]] Vector3 unrotated(Vector3 p) const {
+    const auto& [x, y, z] = about_;
+    p = {z.c * p.x + z.s * p.y, z.c * p.y - z.s * p.x, p.z};
+    p = {y.c * p.x - y.s * p.z, p.y, y.c * p.z + y.s * p.x};
+    return {p.x, x.c * p.y + x.s * p.z, x.c * p.z - x.s * p.y};
+  }
+
+ private:
+  scene::Axis up_;
+  std::array<double, 3> scale_;
+  std::array<PlaneTurn, 3> about_;
+};
+
+// The mesh's centroid where its pose puts it. The centroid of a surface does not follow where lengths change unevenly.
+Vector3 posed_centroid(const mesh::Mesh& mesh, const Pose& pose) {
+  mesh::ExamineOptions quickly;
+  quickly.crossings = false;
+  if (!pose.is_scaled()) return pose(mesh::examine(mesh, quickly).centroid);
+  mesh::Mesh posed;
+  posed.triangles = mesh.triangles;
+  for (const Vector3& own : mesh.positions) posed.positions.push_back(pose(own));
+  return mesh::examine(posed, quickly).centroid;
+}
 
 // ---- refining ---------------------------------------------------------------------------------------------------------------
 
@@ -146,16 +218,16 @@ std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh&
                                                : object.span);
 }
 
-// The object between file and room: centred, scaled, standing on z = 0, not yet turned; still flat.
+// The object between file and room: posed, centred, scaled to its size, standing on z = 0, not yet turned; still flat.
 Result<mesh::Mesh> flatten(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room) {
+  const Pose pose(object);
   mesh::Mesh flat;
   flat.uv = mesh.uv, flat.triangles = mesh.triangles, flat.material = mesh.material;
-  mesh::ExamineOptions quickly;
-  quickly.crossings = false;
-  const Vector3 middle = standing(mesh::examine(mesh, quickly).centroid, object.up);
+  if (pose.is_mirrored()) mesh::turn_inside_out(flat);
+  const Vector3 middle = posed_centroid(mesh, pose);
   Vector3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const Vector3& own : mesh.positions) {
-    const Vector3 p = standing(own, object.up);
+    const Vector3 p = pose(own);
     flat.positions.push_back({p.x - middle.x, p.y - middle.y, p.z});
     const Vector3& q = flat.positions.back();
     low = {std::fmin(low.x, q.x), std::fmin(low.y, q.y), std::fmin(low.z, q.z)};
@@ -221,6 +293,8 @@ Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& obj
     placed.z.push_back(z > height && z < height * (1 + 1e-14) ? height : z);
   }
   if (auto error = check_inside(placed, flat, object, room, height, at->floor, at->z)) return located({*error}, object.span);
+  const Pose pose(object);
+  for (Vector3& p : flat.positions) p = pose.unrotated(p);
   placed.pattern_position = std::move(flat.positions);
   return placed;
 }

@@ -10,6 +10,7 @@
 #include "compiler/geometry/predicates.h"
 #include "compiler/place/locate.h"
 #include "compiler/place/placed.h"
+#include "compiler/scene/check.h"
 
 namespace orbc::place {
 namespace {
@@ -158,6 +159,66 @@ Result<Vector3> direction_of(const scene::Camera& camera, const PlacedRoom& plac
   return direction;
 }
 
+// ---- its lens ---------------------------------------------------------------------------------------------------------------
+
+/// Clockwise as seen from behind: what was right tips down.
+void roll(Eye& eye, double radians) {
+  if (eye.projection != Projection::perspective || radians == 0) return;
+  const Vector3 right = eye.right, up = eye.up;
+  eye.right = std::cos(radians) * right - std::sin(radians) * up;
+  eye.up = std::sin(radians) * right + std::cos(radians) * up;
+}
+
+Result<double> focus_distance(const scene::Lens& lens, const PlacedRoom& placed, const Eye& eye) {
+  const auto& focus = lens.focus;
+  if (const auto* distance = std::get_if<double>(&focus.value)) return *distance;
+  Position target;
+  if (const auto* object = std::get_if<scene::LookAtObject>(&focus.value)) {
+    Result<Position> centre = centre_of(placed, object->name, focus.span);
+    if (!centre) return std::move(centre).error();
+    target = *centre;
+  } else {
+    Result<Position> there = locate(std::get<scene::Place>(focus.value), placed.room, placed.height, eye.z);
+    if (!there) return located(std::move(there).error(), focus.span);
+    target = *there;
+  }
+  return geometry::length(towards(eye.room_from_eye, eye.z, target));
+}
+
+/// What the lens reaches into, if anything.
+std::string in_the_way_of(const PlacedRoom& placed, const Eye& eye, double radius) {
+  const Position middle{eye.room_from_eye * Point{}, eye.z};
+  const Overhang nearest = overhang(placed.room, middle.floor);
+  if (-nearest.distance <= radius) return fmt::format("wall {}", nearest.wall + 1);
+  if (eye.z <= radius) return "the floor";
+  if (placed.height - eye.z <= radius) return "the ceiling";
+  constexpr int kAround = 16;
+  for (int i = 0; i < kAround; ++i) {
+    const double a = 2 * kPi * i / kAround;
+    const Vector3 p = radius * (std::cos(a) * eye.right + std::sin(a) * eye.up);
+    const Position rim{eye.room_from_eye * geometry::point_from_log(eye.room_from_eye.space, {p.x, p.y}), eye.z + p.z};
+    if (const PlacedMesh* around = object_around(placed, rim)) return around->name;
+  }
+  return "";
+}
+
+Result<EyeLens> make_lens(const scene::Lens& lens, const PlacedRoom& placed, const Eye& eye) {
+  if (const std::string what = in_the_way_of(placed, eye, lens.radius); !what.empty())
+    return make_error("place.lens-too-large", fmt::format("the lens, {} in radius, reaches into {}", to_text(lens.radius), what),
+                      "give it a smaller `radius`, or move the camera", lens.radius_span);
+  Result<double> distance = focus_distance(lens, placed, eye);
+  if (!distance) return std::move(distance).error();
+  const geometry::Space space = placed.room.space;
+  const double farthest = space == geometry::Space::spherical    ? scene::kFarthestFocusSpherical
+                          : space == geometry::Space::hyperbolic ? scene::kFarthestFocusHyperbolic
+                                                                 : 1e15;
+  if (!(*distance > 0) || !(*distance <= farthest))
+    return make_error("place.lens-focus", fmt::format("the lens cannot focus on what is {} from the eye", to_text(*distance)),
+                      *distance > 0 ? fmt::format("at most {} curvature radii", farthest) : "focus on what lies before the eye",
+                      lens.focus.span);
+  return EyeLens{lens.radius, *distance};
+}
+
 }  // namespace
 
 Vector3 direction_through(const Eye& eye, double x, double y) {
@@ -222,6 +283,12 @@ Result<Eye> make_eye(const scene::Scene& scene, const PlacedRoom& placed) {
   if (!direction) return std::move(direction).error();
   const auto* angles = std::get_if<scene::LookDirection>(&camera.look_at.value);
   look_along(eye, *direction, angles ? angles->azimuth.radians : 0);
+  roll(eye, camera.roll.radians);
+  if (camera.lens && eye.projection == Projection::perspective) {
+    Result<EyeLens> lens = make_lens(*camera.lens, placed, eye);
+    if (!lens) return std::move(lens).error();
+    eye.lens = *lens;
+  }
   return eye;
 }
 

@@ -11,6 +11,13 @@ namespace orbc::place {
 struct PlacedMesh;
 struct PlacedRoom;
 
+/// A thin lens in the place of the pinhole: all rays of a point of the picture, from wherever on the lens, meet at the point at the focus
+/// distance along the geodesic through the middle.
+struct EyeLens {
+  double radius = 0.01;                   ///< of the disk of geodesics from the eye along `right` and `up`
+  double focus_distance = 1;
+};
+
 /// The eye and its camera. Eye coordinates: the log map at the eye with axes x, y of the translated room frame, z up, origin on the floor
 /// below the eye; the eye is at (0, 0, z). Straight rays from there are the geodesics from the eye. Source: design §2.
 struct Eye {
@@ -20,6 +27,7 @@ struct Eye {
   scene::Projection projection = scene::Projection::perspective;
   Angle fov = Angle::from_degrees(75);    ///< horizontal
   int width = 800, height = 600;
+  std::optional<EyeLens> lens;            ///< perspective only; exports and what is baked for the eye see from its middle
 };
 
 /// Direction in eye coordinates through the picture at (x, y) pixels, (0, 0) the upper left corner, pixel centres at +0.5. Unit length.
@@ -37,10 +45,11 @@ struct Eye {
 /// Makes:       an eye that looks at an object (the centre of its bounding box), a place (at the eye's height if it has none) or in a
 ///              direction along the geodesic there. Default: the centre of the room at the eye's height; an eye that stands there looks
 ///              towards the middle of the longest wall.
-///              Panoramas and cylinders stay level: they look there with the horizon in the middle.
+///              Panoramas and cylinders stay level: they look there with the horizon in the middle, without `roll` or lens.
 ///              Looking straight up or down is fine: the upper edge of the picture then shows what lies behind or before the azimuth.
 /// Diagnostics: place.eye-outside-room (and how far), place.eye-in-wall (exactly on the border), place.eye-inside-object (names it), those
-///              of `locate`, place.no-such-object, place.looks-at-itself.
+///              of `locate`, place.no-such-object, place.looks-at-itself, place.lens-too-large (it reaches into a wall, floor,
+///              ceiling or object), place.lens-focus (it cannot focus there).
 /// Exact:       inside the room by exact predicates; inside an object by the parity of the triangles above and below the eye, their
 ///              footprints tested exactly.
 [[nodiscard]] Result<Eye> make_eye(const scene::Scene& scene, const PlacedRoom& room);

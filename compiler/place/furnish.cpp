@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "compiler/mesh/examine.h"
@@ -51,7 +53,8 @@ struct Builder {
   PlacedRoom placed;
   Diagnostics errors, warnings;
   std::map<std::string, int> texture_of_path;
-  std::map<std::string, mesh::Mesh> mesh_of_path;
+  std::map<std::string, mesh::Mesh> mesh_of_path;   ///< by `same_path`
+  std::set<std::string> told;                       ///< warnings that hold for many objects alike, by what they hold for
 
   void fail(Diagnostics diagnostics, const SourceSpan& span) {
     for (Diagnostic& d : located(std::move(diagnostics), span)) errors.push_back(std::move(d));
@@ -59,6 +62,15 @@ struct Builder {
 
   [[nodiscard]] std::string path_of(const std::string& written) const {
     return scene.folder.empty() || (!written.empty() && written[0] == '/') ? written : scene.folder + "/" + written;
+  }
+
+  // However a file's path is written, it is one file.
+  [[nodiscard]] std::string same_path(const std::string& written) const {
+    return std::filesystem::path(path_of(written)).lexically_normal().string();
+  }
+
+  void warn_once(const std::string& of, Diagnostic warning) {
+    if (told.insert(warning.code + "\n" + of).second) warnings.push_back(std::move(warning));
   }
 
   int texture(const scene::Sourced<std::string>& written) {
@@ -161,10 +173,11 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
 // ---- objects ----------------------------------------------------------------------------------------------------------------
 
 const mesh::Mesh* load(Builder& builder, const scene::Sourced<std::string>& path) {
-  const auto known = builder.mesh_of_path.find(path.value);
+  const std::string file = builder.same_path(path.value);
+  const auto known = builder.mesh_of_path.find(file);
   if (known != builder.mesh_of_path.end()) return known->second.triangles.empty() ? nullptr : &known->second;
   Result<mesh::Loaded> loaded = mesh::load_mesh(builder.path_of(path.value), builder.options.load);
-  mesh::Mesh& mesh = builder.mesh_of_path[path.value];
+  mesh::Mesh& mesh = builder.mesh_of_path[file];
   if (!loaded) {
     builder.fail(std::move(loaded).error(), path.span);
     return nullptr;
@@ -201,19 +214,28 @@ std::vector<std::uint16_t> file_looks(Builder& builder, const mesh::Mesh& mesh, 
   return looks;
 }
 
-// Adds a mesh in one material. Checkers are solid: cells of the mesh's own coordinates.
-void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const SourceSpan& span) {
-  if (material.pattern == Pattern::texture && mesh.uv.empty()) {
-    builder.warnings.push_back(make_warning("place.no-uv",
-                                            fmt::format("{} has no texture coordinates; it is shown in its plain colour", mesh.name),
-                                            "give it a `color`, or export the mesh with uv", material.span));
+// Takes what needs texture coordinates from the material of a mesh without them. In: what has none: a mesh file, or a thing of its own.
+void leave_out_pictures(Builder& builder, const std::string& what, Material& material) {
+  if (material.pattern == Pattern::texture) {
+    builder.warn_once(what + "\ntexture",
+                      make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown in its plain colour", what),
+                                   "give it a `color`, or export the mesh with uv", material.span));
     material.pattern = Pattern::plain;
   }
-  if (!material.opacity_mask.value.empty() && mesh.uv.empty()) {
-    builder.warnings.push_back(
-        make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown without the holes of its mask", mesh.name),
+  if (!material.opacity_mask.value.empty()) {
+    builder.warn_once(
+        what + "\nmask",
+        make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown without the holes of its mask", what),
                      "export the mesh with uv", material.opacity_mask.span));
     material.opacity_mask = {};
+  }
+}
+
+// Adds a mesh in one material. Checkers are solid: cells of the mesh's own coordinates. `file`: of a mesh that comes from one.
+void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const SourceSpan& span, const std::string& file = {}) {
+  if (mesh.uv.empty()) {
+    const std::string kind = mesh.kind == PartKind::frame ? "a mirror's frame" : mesh.name;
+    leave_out_pictures(builder, file.empty() ? kind : file, material);
   }
   std::fill(mesh.look.begin(), mesh.look.end(), std::uint16_t{0});
   if (material.pattern == Pattern::checker) {
@@ -263,7 +285,9 @@ void build_object(Builder& builder, const scene::Object& object) {
   if (!mesh) return;
   Result<PlacedMesh> placed = place_object(*mesh, object, builder.room, builder.scene.room.height, builder.options.embed);
   if (!placed) return builder.fail(std::move(placed).error(), object.span);
-  if (object.material) return add_in_material(builder, *std::move(placed), *object.material, object.span);
+  const auto* file = std::get_if<scene::MeshFile>(&object.shape);
+  if (object.material)
+    return add_in_material(builder, *std::move(placed), *object.material, object.span, file ? builder.same_path(file->path.value) : "");
   const std::vector<std::uint16_t> looks = file_looks(builder, *mesh, *placed);
   builder.add_part(*std::move(placed), looks, object.span);
 }
@@ -271,7 +295,7 @@ void build_object(Builder& builder, const scene::Object& object) {
 }  // namespace
 
 Result<Furnished> furnish(const scene::Scene& scene, const room::Room& room, const FurnishOptions& options) {
-  Builder builder{scene, room, options, {}, {}, {}, {}, {}};
+  Builder builder{scene, room, options, {}, {}, {}, {}, {}, {}};
   builder.placed.room = room;
   builder.placed.height = scene.room.height;
   ClippedMirrors mirrors = clipped_mirrors(scene.room, room);

@@ -50,6 +50,18 @@ Result<Point> polar(const room::Room& room, double r, double radians, const Sour
   return geometry::point_from_log(room.space, std::polar(std::fabs(r), r < 0 ? radians + std::numbers::pi : radians));
 }
 
+// T_x(x)·T_y(y) applied to the centre: on S² longitude and latitude, in H² Lobachevsky's coordinates.
+Result<Point> from_xy(const room::Room& room, const scene::AtXy& at, const SourceSpan& span) {
+  if (!std::isfinite(at.x) || !std::isfinite(at.y)) return not_finite(span);
+  const Space space = room.space;
+  if (space == Space::euclidean) return Point{1, at.x, at.y};
+  if (space == Space::hyperbolic && (std::fabs(at.x) > 150 || std::fabs(at.y) > 150))
+    return make_error("place.outside-room", fmt::format("this place is {} and {} from the centre, far outside the room", to_text(at.x),
+                                                        to_text(at.y)), "", span);
+  const double across = geometry::cos_k(space, at.y);
+  return Point{geometry::cos_k(space, at.x) * across, geometry::sin_k(space, at.x) * across, geometry::sin_k(space, at.y)};
+}
+
 Result<Point> from_disk(const room::Room& room, std::complex<double> z, const SourceSpan& span) {
   if (!std::isfinite(z.real()) || !std::isfinite(z.imag())) return not_finite(span);
   if (room.space == Space::hyperbolic && std::norm(z) >= 1 - 1e-12)
@@ -134,6 +146,7 @@ Result<Point> between_walls(const room::Room& room, const scene::AtWalls& at, co
 Result<Point> unchecked(const scene::Place& place, const room::Room& room) {
   if (const auto* at = std::get_if<scene::AtDisk>(&place.floor)) return from_disk(room, at->z, place.span);
   if (const auto* at = std::get_if<scene::AtPolar>(&place.floor)) return polar(room, at->r, at->angle.radians, place.span);
+  if (const auto* at = std::get_if<scene::AtXy>(&place.floor)) return from_xy(room, *at, place.span);
   if (const auto* at = std::get_if<scene::AtToward>(&place.floor)) return toward(room, *at, place.span);
   if (const auto* at = std::get_if<scene::AtWalls>(&place.floor)) return between_walls(room, *at, place.span);
   return Point{};

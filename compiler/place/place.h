@@ -12,13 +12,16 @@ struct EmbedOptions {
 };
 
 /// Embeds an object's mesh and moves it to its place.
-/// In:          a mesh as its file has it (object.up = 'y': its y axis points up); the room and its height.
-/// Makes:       the mesh centred by its volume centroid (surface centroid if it is open) on the vertical axis, scaled so that its longer
-///              horizontal extent is `object.size`, turned, standing at height `place.z` (its lowest point; on the floor if missing).
+/// In:          a mesh as its file has it; the room and its height.
+/// Makes:       the mesh posed: by the shortest turn that brings its axis `object.up` up (−z: about x), stretched along its axes as they
+///              are now by `object.scale` (triangles of mirror images are turned over, so that outside stays outside), turned about these
+///              axes by `object.rotate`: x, then y, then z. Then centred by its volume centroid (surface centroid if it is open) on the
+///              vertical axis, scaled so that its longer horizontal extent, as it lies now, is `object.size`, turned about the vertical,
+///              standing at height `place.z` (its lowest point; on the floor if missing).
 ///              Conformal: horizontal coordinates (x, y) become the disk point (x + iy)/2 (E²: x + iy), so that lengths on the axis are
 ///              true. Exponential: they become log coordinates, so that distances from the axis are true. Heights are scaled like the rest.
 ///              Then the Möbius translation of the place moves it. `look` is the mesh's own `material`; `pattern_position` is centred and
-///              scaled, but not turned.
+///              scaled, but neither rotated nor turned.
 /// Error:       a geodesic triangle departs from the embedded flat one by at most about `tolerance`: longer edges are halved, each judged
 ///              by itself.
 /// Exact:       containment, for every vertex as stored; touching walls, floor and ceiling is allowed. Since the room is convex, all

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "compiler/render/lens.h"
 #include "compiler/render/shade.h"
 
 namespace orbc::render {
@@ -66,8 +67,14 @@ trace::Ray eye_ray_from(const place::Eye& eye, const geometry::Point& at, double
   return trace::ray_from(eye.room_from_eye.space, {at, eye.z}, {floor, d.z});
 }
 
+std::uint64_t seed_of(const DrawOptions& options) { return options.light ? static_cast<std::uint64_t>(options.light->options.seed) : 0; }
+
+std::size_t number_of(const Pixel& at, const Film& film) {
+  return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(at.x);
+}
+
 Chance chance_of(const DrawOptions& options, std::size_t pixel, int sample) {
-  return {options.light ? options.light->options.seed : 0, pixel, sample, options.samples};
+  return {seed_of(options), pixel, sample, options.samples};
 }
 
 /// Draws pixels by all their samples, as many rays at once as make a stream.
@@ -81,13 +88,18 @@ void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const Dr
   Sums sums;
   for (std::size_t first = 0; first < all; first += kStream) {
     rays.clear();
-    for (std::size_t i = first; i < std::min(all, first + kStream); ++i)
-      rays.push_back(eye_ray_from(eye, eye_at, pixels[i / count].x + samples[i % count][0], pixels[i / count].y + samples[i % count][1]));
+    for (std::size_t i = first; i < std::min(all, first + kStream); ++i) {
+      const double x = pixels[i / count].x + samples[i % count][0], y = pixels[i / count].y + samples[i % count][1];
+      if (!eye.lens) rays.push_back(eye_ray_from(eye, eye_at, x, y));
+      else
+        rays.push_back(
+            lens_ray(eye, x, y, lens_point(seed_of(options), number_of(pixels[i / count], film), static_cast<int>(i % count))));
+    }
     std::vector<trace::Path> paths = trace::follow(scene, rays, follow_options(options));
     for (std::size_t j = 0; j < paths.size(); ++j) {
       const std::size_t i = first + j, sample = i % count;
       const Pixel at = pixels[i / count];
-      const std::size_t pixel = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(at.x);
+      const std::size_t pixel = number_of(at, film);
       const Seen seen = radiance(scene, std::move(paths[j]), options, chance_of(options, pixel, static_cast<int>(sample)));
       if (sample == 0) sums = {}, record(seen, pixel, film);
       sums.add(seen, Chance::group_of(static_cast<int>(sample), static_cast<int>(count)));

@@ -25,7 +25,8 @@ struct DrawOptions {
   double white = std::numeric_limits<double>::infinity();
 };
 
-/// The reference picture: every pixel's rays followed as geodesics through real mirrors. Never unfolds, never bends.
+/// The reference picture: every pixel's rays followed as geodesics through real mirrors. Never unfolds, never bends. An eye with a lens
+/// sends each sample from another point of it.
 /// Makes: the same film, bit by bit, for any executor: samples are fixed points of the pixel, pixels are independent.
 [[nodiscard]] Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor,
                         const Progress& progress = {});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/scene/defaults.h"
+#include "compiler/scene/values.h"
 
 namespace orbc::scene {
 namespace {
@@ -61,6 +62,8 @@ class Checker {
       error("scene.outside-space", "this point lies outside the hyperbolic plane: its disk has radius 1", "x² + y² must be less than 1",
             place.span);
     if (const auto* polar = std::get_if<AtPolar>(&place.floor)) check_distance(polar->r, place.span);
+    if (const auto* xy = std::get_if<AtXy>(&place.floor))
+      for (const double along : {xy->x, xy->y}) check_distance(std::abs(along), place.span);
     if (const auto* toward = std::get_if<AtToward>(&place.floor)) check_distance(toward->distance, place.span);
     if (const auto* walls = std::get_if<AtWalls>(&place.floor))
       for (const double distance : walls->distances) check_distance(distance, place.span);
@@ -69,7 +72,8 @@ class Checker {
   void check_camera() {
     const Camera& camera = scene_.camera;
     check_place(camera.place);
-    if (const auto* object = std::get_if<LookAtObject>(&camera.look_at.value)) check_look_at(object->name);
+    if (const auto* object = std::get_if<LookAtObject>(&camera.look_at.value)) check_named("look_at", object->name, camera.look_at.span);
+    if (camera.lens) check_lens(camera.lens->focus);
     if (const auto* target = std::get_if<Place>(&camera.look_at.value)) {
       check_place(*target);
       const bool both_centre = std::holds_alternative<AtCentre>(target->floor) && std::holds_alternative<AtCentre>(camera.place.floor);
@@ -87,7 +91,17 @@ class Checker {
           camera.size_span));
   }
 
-  void check_look_at(const std::string& name) {
+  void check_lens(const Sourced<std::variant<double, LookAtObject, Place>>& focus) {
+    if (const auto* object = std::get_if<LookAtObject>(&focus.value)) check_named("focus", object->name, focus.span);
+    if (const auto* place = std::get_if<Place>(&focus.value)) check_place(*place);
+    const auto* distance = std::get_if<double>(&focus.value);
+    const double farthest = curvature_ == 0 ? kMaxLength : curvature_ < 0 ? kFarthestFocusHyperbolic : kFarthestFocusSpherical;
+    if (distance && *distance > farthest)
+      error("scene.outside-space", fmt::format("the focus distance {} is too large for this space", *distance),
+            fmt::format("at most {} curvature radii, beyond which no lens can focus here", farthest), focus.span);
+  }
+
+  void check_named(const char* key, const std::string& name, const SourceSpan& span) {
     std::vector<std::string> known;
     for (const Object& object : scene_.objects) {
       if (object.name == name) return;
@@ -98,8 +112,8 @@ class Checker {
                        : !known.empty()
                            ? "objects have the name of `name`, of their mesh file or of their kind; here is " + known.front()
                            : "this scene has no objects; a place is {polar: [r, 30deg]}, a direction {azimuth: 30deg, elevation: 0deg}";
-    error("scene.unknown-object", fmt::format("`look_at` names no object of this scene: \"{}\"", name.substr(0, 200)), std::move(hint),
-          scene_.camera.look_at.span);
+    error("scene.unknown-object", fmt::format("`{}` names no object of this scene: \"{}\"", key, name.substr(0, 200)), std::move(hint),
+          span);
   }
 
   const Scene& scene_;

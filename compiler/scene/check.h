@@ -9,6 +9,11 @@ namespace orbc::scene {
 /// Diagnostics: scene.unknown-object, scene.looks-at-itself, scene.outside-space, scene.wall-count; warnings scene.stretched.
 [[nodiscard]] Diagnostics check(const Scene& scene);
 
+/// The farthest that a lens can focus. In H² what is farther is not told from it; on S² all rays from the lens to the antipode of the eye
+/// leave along its rim, so that near there no picture is left.
+inline constexpr double kFarthestFocusHyperbolic = 20;
+inline constexpr double kFarthestFocusSpherical = 3;
+
 /// The sign of the curvature of the room's space: +1 S², 0 E², −1 H²; from χ in exact rationals (design §3).
 [[nodiscard]] int curvature_sign(const notation::Orbifold& orbifold);
 

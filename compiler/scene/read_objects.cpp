@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "compiler/scene/parts.h"
@@ -123,10 +124,49 @@ void read_material_of(const Fields& fields, Object& object) {
   object.material->span = fields.find("color")->span;
 }
 
+// Factors so small that nothing is left of a mesh, and 0, are refused.
+void read_scale(Reader& reader, const Node& node, Object& object) {
+  constexpr double kSmallest = 1e-6;
+  const std::size_t before = reader.diagnostics.size();
+  object.scale = reader.numbers<3>(node, "`scale`", object.scale, {-kMaxLength, kMaxLength}, "a list of three factors: [x, y, z]");
+  if (reader.diagnostics.size() > before) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::abs(object.scale[i]) >= kSmallest) continue;
+    reader.error("scene.out-of-range", node.items[i].span, fmt::format("a factor of `scale` must not be 0, nor below {}", kSmallest),
+                 "1 leaves a length as it is, -1 makes a mirror image");
+    object.scale[i] = 1;
+  }
+}
+
+void read_rotate(Reader& reader, const Node& node, Object& object) {
+  if (!reader.list(node, "`rotate`", 3, "a list of three angles, about x, y and z: [90deg, 0, 0]")) return;
+  for (std::size_t i = 0; i < 3; ++i) object.rotate[i] = reader.angle(node.items[i], "the angle", {});
+}
+
+// Which way up, how large, how tilted: all that happens to a mesh before it stands.
+void read_pose(const Fields& fields, Object& object) {
+  const auto* mesh = std::get_if<MeshFile>(&object.shape);
+  const std::string ending = mesh ? split(mesh->path.value).ending : "";
+  object.up = fields.choice<Axis>("up", ending == "gltf" || ending == "glb" ? Axis::plus_y : Axis::plus_z,
+                                  {{"x", Axis::plus_x}, {"-x", Axis::minus_x}, {"y", Axis::plus_y}, {"-y", Axis::minus_y},
+                                   {"z", Axis::plus_z}, {"-z", Axis::minus_z}});
+  if (const Node* scale = fields.find("scale")) read_scale(fields.reader(), *scale, object);
+  if (const Node* rotate = fields.find("rotate")) read_rotate(fields.reader(), *rotate, object);
+}
+
+// A beam lies where its ends are.
+void refuse_pose_of_beam(const Fields& fields) {
+  for (const char* key : {"up", "scale", "rotate"})
+    if (fields.has(key))
+      fields.reader().error("scene.conflict", fields.key_span(key), fmt::format("a beam has no `{}`: it reaches from `from` to `to`", key),
+                            "move its ends, or set its `width`");
+  for (const char* key : {"at", "size", "turn", "embedding"}) fields.no_effect(key, "a beam reaches from `from` to `to`");
+}
+
 Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
   Object object;
   object.span = node.span;
-  std::vector<std::string> keys = {"name", "size", "embedding", "up", "at", "turn", "material", "color"};
+  std::vector<std::string> keys = {"name", "size", "embedding", "up", "scale", "rotate", "at", "turn", "material", "color"};
   keys.insert(keys.begin() + 1, shape_keys().begin(), shape_keys().end());
   const Fields fields(reader, node, "an object", keys);
   const std::string shape = fields.only_one_of(shape_keys());
@@ -138,17 +178,14 @@ Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
   // Bodies of stated lengths keep them: along straight lines from their axis every length is true.
   object.embedding = fields.choice<Embedding>("embedding", shape == "mesh" ? Embedding::conformal : Embedding::exponential,
                                               {{"conformal", Embedding::conformal}, {"exponential", Embedding::exponential}});
-  const auto* mesh = std::get_if<MeshFile>(&object.shape);
-  const std::string ending = mesh ? split(mesh->path.value).ending : "";
-  object.up = fields.choice<char>("up", ending == "gltf" || ending == "glb" ? 'y' : 'z', {{"y", 'y'}, {"z", 'z'}});
+  read_pose(fields, object);
   if (const Node* at = fields.find("at")) object.place = read_place(reader, *at, "`at`", facts);
   else object.place.span = node.span;
   object.turn = fields.angle("turn", {});
   read_material_of(fields, object);
-  if (shape == "beam")
-    for (const char* key : {"at", "size", "turn", "embedding"}) fields.no_effect(key, "a beam reaches from `from` to `to`");
-  if (shape != "mesh") fields.no_effect("up", "only mesh files need it");
-  object.name = shape == "mesh" ? split(mesh->path.value).stem : shape;
+  if (shape == "beam") refuse_pose_of_beam(fields);
+  const auto* mesh = std::get_if<MeshFile>(&object.shape);
+  object.name = mesh ? split(mesh->path.value).stem : shape;
   const Node* name = fields.find("name");
   if (!name) return object;
   object.name_span = name->span;

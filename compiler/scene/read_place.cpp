@@ -1,5 +1,5 @@
-// Places: {toward: corner 2, distance: 0.3}, {disk: [x, y]}, {polar: [r, 30deg]}, {walls: {1: 0.3, 2: 0.4}}, centre; each with an optional
-// z.
+// Places: {toward: corner 2, distance: 0.3}, {xy: [x, y]}, {disk: [x, y]}, {polar: [r, 30deg]}, {walls: {1: 0.3, 2: 0.4}}, centre; each
+// with an optional z.
 #include <fmt/format.h>
 
 #include "compiler/scene/parts.h"
@@ -8,7 +8,7 @@ namespace orbc::scene {
 namespace {
 
 constexpr const char* kPlaces =
-    "centre, {disk: [x, y]}, {polar: [r, 30deg]}, {toward: corner 2, distance: 0.3} or {walls: {1: 0.3, 2: 0.4}}";
+    "centre, {xy: [x, y]}, {disk: [x, y]}, {polar: [r, 30deg]}, {toward: corner 2, distance: 0.3} or {walls: {1: 0.3, 2: 0.4}}";
 
 // "7" → 7; 0 for what is no wall or corner number at all.
 int positive_integer(std::string_view digits) {
@@ -102,9 +102,12 @@ Place read_place(Reader& reader, const Node& node, const std::string& what, cons
     reader.wrong_type(node, what, "a place", std::string("places are ") + kPlaces);
     return place;
   }
-  const Fields fields(reader, node, what, {"disk", "polar", "toward", "distance", "walls", "z"});
-  const std::string kind = fields.only_one_of({"disk", "polar", "toward", "walls"});
-  if (kind == "disk") {
+  const Fields fields(reader, node, what, {"xy", "disk", "polar", "toward", "distance", "walls", "z"});
+  const std::string kind = fields.only_one_of({"xy", "disk", "polar", "toward", "walls"});
+  if (kind == "xy") {
+    const auto xy = reader.numbers<2>(*fields.find("xy"), "`xy`", {0, 0}, {-kMaxLength, kMaxLength}, "two lengths: [x, y]");
+    place.floor = AtXy{xy[0], xy[1]};
+  } else if (kind == "disk") {
     const auto xy = reader.numbers<2>(*fields.find("disk"), "`disk`", {0, 0}, {-kMaxLength, kMaxLength}, "two coordinates: [x, y]");
     place.floor = AtDisk{{xy[0], xy[1]}};
   } else if (kind == "polar") {

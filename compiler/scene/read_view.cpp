@@ -69,6 +69,35 @@ std::variant<LookAtObject, Place, LookDirection> read_look_at(Reader& reader, co
   return LookDirection{fields.angle("azimuth", {}), fields.angle("elevation", {}, {-90, 90})};
 }
 
+std::variant<double, LookAtObject, Place> read_focus(Reader& reader, const Node& node, const RoomFacts& facts) {
+  if (number_of(node) && !node.quoted) {
+    reader.wrong_type(node, "`focus`", "the name of an object, or a place", "a distance is written focus_distance: 0.8");
+  } else if (node.kind != NodeKind::scalar || node.text == "centre" || node.text == "center") {
+    return read_place(reader, node, "`focus`", facts);
+  } else if (auto name = reader.text(node, "`focus`")) {
+    return LookAtObject{*name};
+  }
+  return 1.0;
+}
+
+Lens read_lens(Reader& reader, const Node& node, const RoomFacts& facts) {
+  Lens lens;
+  const Fields fields(reader, node, "the lens", {"radius", "focus", "focus_distance"});
+  lens.radius_span = lens.focus.span = node.span;
+  lens.focus.value = 1.0;
+  lens.radius = fields.number("radius", lens.radius, kLength);
+  if (const Node* radius = fields.find("radius")) lens.radius_span = radius->span;
+  const std::string key = fields.only_one_of({"focus_distance", "focus"});
+  if (key.empty()) {
+    fields.require("focus", "say what is sharp: focus: statue or focus_distance: 0.8");
+    return lens;
+  }
+  lens.focus.span = fields.find(key)->span;
+  if (key == "focus") lens.focus.value = read_focus(reader, *fields.find(key), facts);
+  else lens.focus.value = fields.number(key, 1, kLength);
+  return lens;
+}
+
 }  // namespace
 
 std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& facts) {
@@ -85,7 +114,7 @@ std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& 
 Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, const Instead& instead) {
   Camera camera;
   camera.span = camera.place.span = node.span;
-  const Fields fields(reader, node, "the camera", {"at", "look_at", "fov", "size", "projection"});
+  const Fields fields(reader, node, "the camera", {"at", "look_at", "fov", "roll", "lens", "size", "projection"});
   if (const Node* at = fields.find("at")) camera.place = read_place(reader, *at, "`at`", facts);
   camera.projection = fields.choice<Projection>(
       "projection", camera.projection,
@@ -95,6 +124,12 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, con
   if (const Node* fov = fields.find("fov")) camera.fov_span = fov->span;
   camera.fov = fields.angle("fov", camera.fov, perspective ? Range{1, 170} : Range{1, 360});
   if (camera.projection == Projection::panorama) fields.no_effect("fov", "a panorama shows all directions");
+  camera.roll = fields.angle("roll", camera.roll);
+  if (const Node* lens = fields.find("lens")) camera.lens = read_lens(reader, *lens, facts);
+  if (!perspective) {
+    fields.no_effect("roll", "a picture all around keeps its horizon level");
+    fields.no_effect("lens", "only a perspective camera has one");
+  }
   if (const Node* size = fields.find("size")) camera.size_span = size->span, camera.size = read_picture_size(reader, *size, camera.size);
   camera.size = instead.size.value_or(camera.size);
   const Node* look_at = fields.find("look_at");

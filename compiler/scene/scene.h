@@ -111,11 +111,13 @@ struct RoomSpec {
 struct AtCentre {};
 struct AtDisk { std::complex<double> z; };                       ///< disk chart
 struct AtPolar { double r = 0; Angle angle; };                   ///< intrinsic distance and direction from the centre
+/// Geodesic coordinates: from the centre `x` along the geodesic of the x axis, then `y` along the perpendicular to it (E²: Cartesian)
+struct AtXy { double x = 0, y = 0; };
 /// `distance` from the centre towards corner or the middle of wall `number`
 struct AtToward { bool corner = true; int number = 1; double distance = 0; };
 struct AtWalls { std::array<int, 2> walls{}; std::array<double, 2> distances{}; };  ///< given distances from two walls
 struct Place {
-  std::variant<AtCentre, AtDisk, AtPolar, AtToward, AtWalls> floor;
+  std::variant<AtCentre, AtDisk, AtPolar, AtXy, AtToward, AtWalls> floor;
   std::optional<double> z;          ///< height; what is missing is decided by what is placed (objects stand on the floor)
   SourceSpan span;
 };
@@ -131,17 +133,21 @@ struct TorusKnotSpec { int p = 2, q = 3; double radius = 0.15, tube = 0.04; };
 struct BeamSpec { Place from, to; double width = 0.03; };        ///< a geodesic beam between two positions of the room
 
 enum class Embedding { conformal, exponential };
+/// An axis of a mesh, in either direction.
+enum class Axis { plus_x, minus_x, plus_y, minus_y, plus_z, minus_z };
 
 struct Object {
   std::string name;                 ///< given, or the mesh's file name without ending, or the primitive's name; made unique by "-2"
   SourceSpan name_span;             ///< where the name was written; no source when it was not
   std::variant<MeshFile, SphereSpec, CylinderSpec, BoxSpec, TorusSpec, TorusKnotSpec, BeamSpec> shape;
-  std::optional<double> size;       ///< longest horizontal extent, intrinsic length; missing = the file's own units
+  std::optional<double> size;       ///< longest horizontal extent as it stands, before `turn`; intrinsic length; missing = own units
   SourceSpan size_span;
   Embedding embedding = Embedding::conformal;   ///< when not given: of mesh files conformal, of bodies of stated lengths exponential
-  char up = 'z';                    ///< which axis of the mesh file points up: 'y' or 'z' (glTF: y)
+  Axis up = Axis::plus_z;           ///< which axis of the mesh points up (glTF files: y); after that its axes are x, y and z, upwards
+  std::array<double, 3> scale{1, 1, 1};  ///< along these axes, before `rotate`; negative: a mirror image; none is 0
+  std::array<Angle, 3> rotate{};    ///< about these axes: about x, then about y, then about z, all as they are before the first turn
   Place place;
-  Angle turn;
+  Angle turn;                       ///< about the vertical through its centroid, after everything else
   std::optional<Material> material; ///< missing: the file's own (glTF), else matte grey
   SourceSpan span;
 };
@@ -188,11 +194,20 @@ struct BakeSpec {
 enum class Projection { perspective, panorama, cylinder };
 struct LookAtObject { std::string name; };
 struct LookDirection { Angle azimuth, elevation; };              ///< azimuth from the +x direction of the eye's frame, counter-clockwise
+/// A thin lens: things at the focus distance are sharp. The tracer alone draws it.
+struct Lens {
+  double radius = 0.01;             ///< of the aperture, intrinsic length
+  SourceSpan radius_span;
+  /// Distance from the eye of what is sharp, along the geodesic there: a length, or that of the centre of an object, or of a place
+  Sourced<std::variant<double, LookAtObject, Place>> focus;
+};
 struct Camera {
   Place place;                      ///< default z: half the height
   Sourced<std::variant<LookAtObject, Place, LookDirection>> look_at;  ///< default: the centre of the room at the eye's height
   Projection projection = Projection::perspective;
   Angle fov = Angle::from_degrees(75);  ///< horizontal field of view; panorama: always 360° × 180°
+  Angle roll;                       ///< perspective: the camera turned about its line of sight, clockwise as seen from behind it
+  std::optional<Lens> lens;         ///< perspective: missing = a pinhole, all is sharp
   std::array<int, 2> size{800, 600};
   SourceSpan size_span, fov_span;
   SourceSpan span;

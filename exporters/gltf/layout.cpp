@@ -43,7 +43,7 @@ std::vector<Part> make_parts(const driver::Product& product, bool part_per_copy)
     ORBC_CHECK(copy.first_index + copy.index_count, <=, product.indices.size());
     ORBC_CHECK(copy.index_count % 3, ==, 0u);
     const bool glows = !product.native || copy.shine != driver::Shine::lit;
-    if (!part_per_copy && !parts.empty() && parts.back().glows == glows) {
+    if (!part_per_copy && !parts.empty() && parts.back().glows == glows && parts.back().object == copy.object) {
       Part& last = parts.back();
       if (last.first_vertex + last.vertex_count == copy.first_vertex && last.first_index + last.index_count == copy.first_index) {
         last.copy_count = i + 1 - last.first_copy;
@@ -55,6 +55,7 @@ std::vector<Part> make_parts(const driver::Product& product, bool part_per_copy)
     Part part;
     part.first_copy = i, part.copy_count = 1;
     part.glows = glows;
+    part.object = copy.object;
     part.first_vertex = copy.first_vertex, part.vertex_count = copy.vertex_count;
     part.first_index = copy.first_index, part.index_count = copy.index_count;
     parts.push_back(part);

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compiler/driver/product.h"
@@ -12,6 +13,7 @@ struct Part {
   std::size_t first_copy = 0, copy_count = 0;
   std::size_t first_vertex = 0, vertex_count = 0;
   std::size_t first_index = 0, index_count = 0;
+  std::optional<std::size_t> object;                   ///< whose triangles they are (Product::objects)
   bool glows = false;                                  ///< its colours are its light, whatever lamps there are
   int index_bytes = 4;                                 ///< 2 where every index is below 65535
   std::array<float, 3> low{}, high{};                  ///< of the positions, in glTF's axes

@@ -102,31 +102,58 @@ void write_primitive(Json& json, const Layout& layout, std::size_t part, std::si
   json.end_object().key("indices").number(accessor).key("material").number(material).end_object();
 }
 
-/// All parts in one mesh.
-void write_joint_mesh(Json& json, const Layout& layout) {
-  json.object().key("name").string("copies").key("primitives").array();
-  for (std::size_t p = 0; p < layout.parts.size(); ++p) write_primitive(json, layout, p, layout.parts[p].glows ? 0 : 1);
+/// Parts that stand in one mesh, under one name.
+struct Group {
+  std::string name;
+  std::size_t first_part = 0, part_count = 0, copies = 0;
+};
+
+/// One group for all, or one an object. The parts of an object follow one another.
+std::vector<Group> groups_of(const Product& product, const Layout& layout) {
+  std::vector<Group> groups;
+  for (std::size_t p = 0; p < layout.parts.size(); ++p) {
+    const Part& part = layout.parts[p];
+    if (groups.empty() || part.object != layout.parts[p - 1].object)
+      groups.push_back({part.object ? product.objects[*part.object] : "copies", p, 0, 0});
+    ++groups.back().part_count;
+    groups.back().copies += part.copy_count;
+  }
+  return groups;
+}
+
+/// The number of a group's material: for what glows, and, where lamps light the rest, for that.
+std::size_t material_of(std::size_t group, bool native, bool glows) { return native ? 2 * group + (glows ? 0 : 1) : group; }
+
+void write_group_mesh(Json& json, const Layout& layout, const Group& group, std::size_t number, bool native) {
+  json.object().key("name").string(group.name).key("primitives").array();
+  for (std::size_t p = group.first_part; p < group.first_part + group.part_count; ++p)
+    write_primitive(json, layout, p, material_of(number, native, layout.parts[p].glows));
   json.end_array().end_object();
+}
+
+void write_group_node(Json& json, const Group& group, std::size_t mesh, bool by_object) {
+  json.object().key("name").string(group.name).key("mesh").number(mesh);
+  if (by_object) json.key("extras").object().key("orbc_object").string(group.name).key("orbc_copies").number(group.copies).end_object();
+  json.end_object();
 }
 
 /// Which triangles of the joint mesh belong to which copy. At the root, because Blender turns the extras of a mesh into properties, 11 KB a
 /// copy.
-void write_ranges(Json& json, const Product& product, const Layout& layout) {
+void write_ranges(Json& json, const Product& product, const Layout& layout, const std::vector<Group>& groups) {
   json.key("extras").object().key("orbc_copies").array();
-  for (std::size_t p = 0; p < layout.parts.size(); ++p) {
-    const Part& part = layout.parts[p];
-    for (std::size_t c = part.first_copy; c < part.first_copy + part.copy_count; ++c) {
-      const DrawnCopy& copy = product.copies[c];
-      if (copy.vertex_count == 0 || copy.index_count == 0) continue;
-      json.object();
-      write_copy_facts(json, copy);
-      json.key("primitive")
-          .number(p)
-          .key("first_index")
-          .number(copy.first_index - part.first_index)
-          .key("index_count")
-          .number(copy.index_count);
-      json.end_object();
+  for (const Group& group : groups) {
+    for (std::size_t p = group.first_part; p < group.first_part + group.part_count; ++p) {
+      const Part& part = layout.parts[p];
+      for (std::size_t c = part.first_copy; c < part.first_copy + part.copy_count; ++c) {
+        const DrawnCopy& copy = product.copies[c];
+        if (copy.vertex_count == 0 || copy.index_count == 0) continue;
+        json.object();
+        write_copy_facts(json, copy);
+        if (part.object) json.key("object").string(group.name);
+        json.key("primitive").number(p - group.first_part);
+        json.key("first_index").number(copy.first_index - part.first_index).key("index_count").number(copy.index_count);
+        json.end_object();
+      }
     }
   }
   json.end_array().end_object();
@@ -137,16 +164,20 @@ struct Tints {
   struct Material {
     scene::Color color{1, 1, 1};
     bool glows = true;
+    std::string name = "atlas";
   };
   std::vector<Material> materials;
   std::vector<std::size_t> of_part;
 };
 
-Tints collect_tints(const Product& product, const Layout& layout, bool per_copy) {
+Tints collect_tints(const Product& product, const Layout& layout, bool per_copy, const std::vector<Group>& groups) {
   Tints tints;
   if (!per_copy) {
-    tints.materials.push_back({});
-    if (product.native) tints.materials.push_back({{1, 1, 1}, false});
+    for (const Group& group : groups) {
+      const std::string name = layout.parts[group.first_part].object ? group.name : "atlas";
+      tints.materials.push_back({{1, 1, 1}, true, name});
+      if (product.native) tints.materials.push_back({{1, 1, 1}, false, name});
+    }
     return tints;
   }
   std::map<std::array<double, 4>, std::size_t> known;
@@ -154,7 +185,7 @@ Tints collect_tints(const Product& product, const Layout& layout, bool per_copy)
     // Lamps bring the weights of the copies that they light.
     const scene::Color c = part.glows ? product.copies[part.first_copy].tint : scene::Color{1, 1, 1};
     const auto [entry, is_new] = known.try_emplace({c.r, c.g, c.b, part.glows ? 1.0 : 0.0}, tints.materials.size());
-    if (is_new) tints.materials.push_back({c, part.glows});
+    if (is_new) tints.materials.push_back({c, part.glows, "atlas"});
     tints.of_part.push_back(entry->second);
   }
   return tints;
@@ -224,8 +255,8 @@ void write_lamp_node(Json& json, const driver::NativeLamp& lamp, std::size_t num
 
 void write_materials(Json& json, const Layout& layout, const Tints& tints, const std::string& atlas_uri, bool interpolate, bool masked) {
   json.key("materials").array();
-  for (const auto& [tint, glows] : tints.materials) {
-    json.object().key("name").string("atlas").key("doubleSided").boolean(true);
+  for (const auto& [tint, glows, name] : tints.materials) {
+    json.object().key("name").string(name).key("doubleSided").boolean(true);
     if (masked) json.key("alphaMode").string("MASK").key("alphaCutoff").number(0.5);
     json.key("pbrMetallicRoughness").object();
     if (layout.has_uv) json.key("baseColorTexture").object().key("index").number(0).end_object();
@@ -305,7 +336,8 @@ struct Uris {
 
 std::string make_json(const Product& product, const Layout& layout, const GltfOptions& options, const Uris& uris) {
   const bool drawn = !layout.parts.empty();
-  const Tints tints = collect_tints(product, layout, options.nodes_per_copy);
+  const std::vector<Group> groups = groups_of(product, layout);
+  const Tints tints = collect_tints(product, layout, options.nodes_per_copy, groups);
   std::string out;
   out.reserve(4096 + 192 * product.copies.size());
   exporters::Pen pen(out);
@@ -321,14 +353,16 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
   }
   if (drawn && !lamps.empty()) write_lights(json, lamps);
   json.key("scene").number(0).key("scenes").array().object().key("name").string(product.title).key("nodes").array().number(0);
-  if (drawn) json.number(1);
-  const std::size_t first_lamp = options.nodes_per_copy ? layout.parts.size() + 2 : 2;
+  // After the camera: one node a group, or one that holds those of all copies.
+  for (std::size_t g = 0; g < (options.nodes_per_copy && drawn ? 1 : groups.size()); ++g) json.number(g + 1);
+  const std::size_t first_lamp = options.nodes_per_copy ? layout.parts.size() + 2 : groups.size() + 1;
   for (std::size_t i = 0; drawn && i < lamps.size(); ++i) json.number(first_lamp + i);
   json.end_array().end_object().end_array();
 
   json.key("nodes").array();
   write_camera_node(json, product);
-  if (drawn && !options.nodes_per_copy) json.object().key("name").string("copies").key("mesh").number(0).end_object();
+  for (std::size_t g = 0; !options.nodes_per_copy && g < groups.size(); ++g)
+    write_group_node(json, groups[g], g, options.nodes_per_object);
   if (drawn && options.nodes_per_copy) {
     json.object().key("name").string("copies").key("children").array();
     for (std::size_t p = 0; p < layout.parts.size(); ++p) json.number(p + 2);
@@ -346,7 +380,8 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
 
   if (drawn) {
     json.key("meshes").array();
-    if (!options.nodes_per_copy) write_joint_mesh(json, layout);
+    for (std::size_t g = 0; !options.nodes_per_copy && g < groups.size(); ++g)
+      write_group_mesh(json, layout, groups[g], g, product.native.has_value());
     for (std::size_t p = 0; options.nodes_per_copy && p < layout.parts.size(); ++p) {
       json.object().key("name").string(copy_name(product.copies[layout.parts[p].first_copy])).key("primitives").array();
       write_primitive(json, layout, p, tints.of_part[p]);
@@ -356,7 +391,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
     write_materials(json, layout, tints, uris.atlas, options.interpolate || product.blended_atlas, product.masked);
     write_accessors(json, layout);
     write_buffers(json, layout, uris.bin);
-    if (!options.nodes_per_copy) write_ranges(json, product, layout);
+    if (!options.nodes_per_copy) write_ranges(json, product, layout, groups);
   }
   json.end_object();
   pen.flush();
@@ -410,6 +445,7 @@ std::string atlas_png(const Product& product) {
 
 std::vector<driver::File> write_gltf(const Product& product, const GltfOptions& options) {
   ORBC_CHECK(product.uv.size(), ==, product.positions.size());
+  ORBC_CHECK(options.nodes_per_object && (options.nodes_per_copy || (product.objects.empty() && !product.copies.empty())), ==, false);
   const bool drawn =
       std::any_of(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.vertex_count && c.index_count; });
   std::string png;

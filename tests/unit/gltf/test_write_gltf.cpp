@@ -119,6 +119,29 @@ TEST_CASE("copies that lamps light are matte and white, what glows keeps its wei
   CHECK(at<std::uint16_t>(glb.bin, colors + 4 * 8) == 53083);       // glowing: 0.81
 }
 
+TEST_CASE("by object each has a node, a mesh and a material under its name, of all its copies", "[gltf]") {
+  driver::Product product = test::two_squares();
+  const driver::Product once = product;
+  for (const driver::DrawnCopy& copy : once.copies) {   // the same again, as copies of another object
+    const auto first = static_cast<std::ptrdiff_t>(copy.first_vertex);
+    const auto cut = [first](const auto& all) { return std::vector(all.begin() + first, all.begin() + first + 4); };
+    test::add_copy(product, cut(once.positions), cut(once.uv), {0, 1, 2, 0, 2, 3});
+  }
+  product.objects = {"floor", "unseen", "\"statue\" 2"};
+  for (std::size_t i = 0; i < 4; ++i) product.copies[i].object = i < 2 ? 0 : 2;
+  product.copies[2].again_of = 0, product.copies[3].again_of = 1;
+  const std::string json = split(gltf::write_gltf(product, {.nodes_per_object = true})[0].bytes).json;
+  CHECK(contains(json, R"("nodes":[0,1,2]}])"));
+  CHECK(contains(json, R"({"name":"floor","mesh":0,"extras":{"orbc_object":"floor","orbc_copies":2}},)"));
+  CHECK(contains(json, R"({"name":"\"statue\" 2","mesh":1,"extras":{"orbc_object":"\"statue\" 2","orbc_copies":2}})"));
+  CHECK(contains(json, R"("meshes":[{"name":"floor","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"indices":3,"material":0}]},)"));
+  CHECK(contains(json, R"({"name":"\"statue\" 2","primitives":[{"attributes":{"POSITION":4,"TEXCOORD_0":5,"COLOR_0":6},"indices":7,"material":1}]}])"));
+  CHECK(contains(json, R"("materials":[{"name":"floor",)"));
+  CHECK(contains(json, R"({"name":"\"statue\" 2","doubleSided":true,)"));
+  CHECK(contains(json, R"("object":"floor","primitive":0,"first_index":6,"index_count":6})"));
+  CHECK(!contains(json, "unseen"));
+}
+
 TEST_CASE("an atlas with holes is a mask at one half, and one of sixteen bits is a PNG of sixteen bits", "[gltf]") {
   driver::Product product = test::two_squares();
   product.masked = true;

@@ -81,6 +81,7 @@ TEST_CASE("edges of three sheets and triangles without area are told", "[mesh]")
   CHECK(found.degenerate == 1);
   CHECK(has(warnings_of(found, "fan"), "mesh.not-manifold"));
   CHECK(has(warnings_of(found, "fan"), "mesh.degenerate-triangles"));
+  for (const Diagnostic& told : warnings_of(found, "fan")) CHECK(told.severity == Severity::note);   // it looks right
 }
 
 TEST_CASE("bodies that cross are told, bodies that touch or lie apart are not", "[mesh]") {
@@ -90,6 +91,7 @@ TEST_CASE("bodies that cross are told, bodies that touch or lie apart are not", 
   CHECK(found.crossings_known);
   CHECK(length(found.crossing_at) < 1.6);
   CHECK(has(warnings_of(found, "x"), "mesh.self-intersections"));
+  CHECK(warnings_of(found, "x").front().severity == Severity::note);
   CHECK(examine(joined(sphere, moved(sphere, {2.5, 0, 0}))).crossings == 0);
   CHECK(examine(joined(make_box({1, 1, 1}), moved(make_box({1, 1, 1}), {1, 0, 0}))).crossings == 0);
   CHECK(examine(joined(sphere, make_sphere(0.5, 24, 12))).crossings == 0);

@@ -138,7 +138,7 @@ TEST_CASE("y-up meshes stand up", "[place]") {
   const room::Room room = make_room("*2222");
   mesh::Mesh box = mesh::make_box({0.2, 0.6, 0.1}, {1, 1, 1});
   scene::Object object = object_at({}, room.space, scene::Embedding::conformal);
-  object.up = 'y';
+  object.up = scene::Axis::plus_y;
   const PlacedMesh placed = place_object(box, object, room, 1.0).value();
   CHECK(*std::max_element(placed.z.begin(), placed.z.end()) == Approx(0.6));
   // Turned about x: what pointed to +z points to −y.

@@ -158,6 +158,85 @@ TEST_CASE("straight up and straight down have an upper edge", "[place]") {
   CHECK(make_eye(scene, placed).value().forward.z == -1);
 }
 
+TEST_CASE("a camera that rolls clockwise turns its picture counter-clockwise about the middle", "[place]") {
+  scene::Scene scene = bare_scene("*22222");
+  scene.camera.place.floor = scene::AtPolar{0.2, Angle::from_degrees(30)};
+  scene.camera.look_at.value = scene::LookDirection{Angle::from_degrees(120), Angle::from_degrees(-25)};
+  scene.camera.size = {640, 400};
+  PlacedRoom room;
+  room.room = make_room("*22222");
+  const Eye level = make_eye(scene, room).value();
+  for (const double degrees : {30.0, -90.0, 180.0, 365.0}) {
+    scene.camera.roll = Angle::from_degrees(degrees);
+    const Eye rolled = make_eye(scene, room).value();
+    CHECK(rolled.forward.x == level.forward.x);
+    CHECK(geometry::length(geometry::cross(rolled.forward, rolled.up) - rolled.right) < 1e-14);
+    const double a = scene.camera.roll.radians;
+    for (const auto& [x, y] : {std::pair{400.0, 250.0}, {320.0, 100.0}}) {
+      // In the picture y goes down, so counter-clockwise is (x, y) → (x·cos a + y·sin a, y·cos a − x·sin a).
+      const auto seen = pixel_of(rolled, direction_through(level, x, y)).value();
+      CHECK(seen[0] == Approx(320 + std::cos(a) * (x - 320) + std::sin(a) * (y - 200)));
+      CHECK(seen[1] == Approx(200 + std::cos(a) * (y - 200) - std::sin(a) * (x - 320)));
+    }
+    scene.camera.projection = scene::Projection::panorama;
+    CHECK(make_eye(scene, room).value().up.z == 1);
+    scene.camera.projection = scene::Projection::perspective;
+  }
+}
+
+TEST_CASE("a lens is focused on a distance, an object or a place", "[place]") {
+  for (const char* notation : {"*333", "*22222", "*222"}) {
+    CAPTURE(notation);
+    scene::Scene scene = bare_scene(notation);
+    scene.objects.push_back(sphere_at(0.3, 40, 0.2, 0.1));
+    scene.camera.place.floor = scene::AtPolar{0.3, Angle::from_degrees(200)};
+    const PlacedRoom placed = interior_of(scene);
+    CHECK_FALSE(make_eye(scene, placed).value().lens);
+    scene.camera.lens.emplace();
+    scene.camera.lens->radius = 0.02;
+    scene.camera.lens->focus.value = 0.7;
+    CHECK(make_eye(scene, placed).value().lens->focus_distance == 0.7);
+    CHECK(make_eye(scene, placed).value().lens->radius == 0.02);
+    const Point eye = locate(scene.camera.place, placed.room).value(), ball = locate(scene.objects[0].place, placed.room).value();
+    scene.camera.lens->focus.value = scene::LookAtObject{"ball"};
+    CHECK(make_eye(scene, placed).value().lens->focus_distance ==
+          Approx(std::hypot(geometry::distance(placed.room.space, eye, ball), 0.2)).epsilon(1e-3));   // its middle is 0.3 high, the eye 0.5
+    scene.camera.lens->focus.value = scene::Place{};
+    CHECK(make_eye(scene, placed).value().lens->focus_distance == Approx(0.3));
+    scene.camera.lens->focus.value = scene.camera.place;
+    CHECK(code_of(scene, placed) == "place.lens-focus");
+    scene.camera.lens->focus.value = scene::LookAtObject{"bell"};
+    CHECK(code_of(scene, placed) == "place.no-such-object");
+    scene.camera.lens->focus.value = 0.7;
+    scene.camera.projection = scene::Projection::panorama;
+    CHECK_FALSE(make_eye(scene, placed).value().lens);
+  }
+}
+
+TEST_CASE("a lens that reaches into a wall, the floor or a body is refused", "[place]") {
+  scene::Scene scene = bare_scene("*22222");
+  scene.objects.push_back(sphere_at(0.2, 100, 0.3, 0.1));
+  const PlacedRoom placed = interior_of(scene);
+  scene.camera.lens.emplace();
+  scene.camera.lens->focus.value = 0.5;
+  scene.camera.look_at.value = scene::LookDirection{};
+  const auto error_at = [&](double r, double degrees, double z, double radius) {
+    scene.camera.place.floor = scene::AtPolar{r, Angle::from_degrees(degrees)};
+    scene.camera.place.z = z;
+    scene.camera.lens->radius = radius;
+    const auto eye = make_eye(scene, placed);
+    return eye ? "" : eye.error()[0].code + ": " + eye.error()[0].message;
+  };
+  CHECK(error_at(0, 0, 0.5, 0.05) == "");
+  CHECK(error_at(0, 0, 0.5, 0.52).find("place.lens-too-large") == 0);
+  CHECK(error_at(0, 0, 0.04, 0.05).find("the floor") != std::string::npos);
+  CHECK(error_at(0, 0, 0.97, 0.05).find("the ceiling") != std::string::npos);
+  const double to_wall = reach(placed.room, 0.7);
+  CHECK(error_at(to_wall - 0.01, 0.7 * 180 / M_PI, 0.5, 0.05).find("wall ") != std::string::npos);
+  // Beside the ball, within the lens's reach of it: along `up`, which is vertical here, the ball begins 0.02 below.
+  CHECK(error_at(0.2, 100, 0.52, 0.05).find("ball") != std::string::npos);
+}
+
 TEST_CASE("an eye outside the room, in a wall or in a body is refused", "[place]") {
   for (const std::string notation : {"*333", "*22222", "*222"}) {
     CAPTURE(notation);

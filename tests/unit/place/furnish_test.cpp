@@ -48,6 +48,40 @@ scene::Object mesh_object(const std::string& file, double size) {
 
 }  // namespace
 
+TEST_CASE("what is to be said of a mesh is said once, however often and however it is named", "[place]") {
+  const Folder folder;
+  std::ofstream(folder.path + "/inside-out.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+  scene::Scene scene = default_of("*2222");
+  scene.folder = folder.path;
+  const std::vector<std::string> ways = {"inside-out.obj", "./inside-out.obj", "inside-out.obj", "../furnish_test/inside-out.obj",
+                                         folder.path + "/inside-out.obj"};
+  for (const std::string& way : ways) {
+    scene::Object object = mesh_object(way, 0.1);
+    object.material.emplace().pattern = scene::Pattern::texture;
+    object.material->texture.value = "tile.png";
+    scene.objects.push_back(object);
+  }
+  const Furnished all = furnished(scene).value();
+  CHECK(all.room.parts.size() == 2 + ways.size());
+  std::vector<std::string> codes;
+  for (const Diagnostic& d : all.warnings) codes.push_back(d.code);
+  CHECK(codes == std::vector<std::string>{"mesh.inside-out", "place.no-uv"});
+}
+
+TEST_CASE("frames that have no texture coordinates say so once, not wall by wall", "[place]") {
+  const Folder folder;
+  scene::Scene scene = default_of("*22222");
+  scene.folder = folder.path;
+  for (scene::Wall& wall : scene.room.walls) {
+    scene::Frame& frame = wall.mirrors[0].frame.emplace();
+    frame.material.pattern = scene::Pattern::texture;
+    frame.material.texture.value = "tile.png";
+  }
+  const Furnished all = furnished(scene).value();
+  REQUIRE(all.warnings.size() == 1);
+  CHECK(all.warnings[0].code == "place.no-uv");
+}
+
 TEST_CASE("every default room is furnished: floor, ceiling, a full mirror on each wall", "[place]") {
   for (const std::string& notation : notations()) {
     CAPTURE(notation);

@@ -43,6 +43,33 @@ TEST_CASE("each way to name a place gives the same point", "[place]") {
   }
 }
 
+TEST_CASE("xy goes along the x axis, then along the perpendicular, as far as it says", "[place]") {
+  for (const std::string& notation : notations()) {
+    CAPTURE(notation);
+    const room::Room room = make_room(notation);
+    const double k = geometry::curvature(room.space), r = 0.3 * (room.inradius > 0 ? room.inradius : 0.5);
+    const geometry::Line x_axis = geometry::line_along(room.space, {}, {0, 1, 0});
+    for (const auto& [x, y] : {std::pair{r, 0.5 * r}, {-r, r}, {0.7 * r, -r}, {0.0, r}, {r, 0.0}}) {
+      CAPTURE(x, y);
+      const Point p = locate(at(scene::AtXy{x, y}), room).value();
+      // y is the signed distance from the axis, x where its foot stands on it.
+      CHECK(geometry::signed_distance(room.space, x_axis, p) == Approx(y).margin(1e-14));
+      const Point foot = geometry::foot(room.space, x_axis, p);
+      CHECK((foot.x < 0 ? -1 : 1) * geometry::distance(room.space, Point{}, foot) == Approx(x).margin(1e-14));
+      // Pythagoras of the space: cosκ(c) = cosκ(x)·cosκ(y).
+      const double c = geometry::distance(room.space, Point{}, p);
+      if (k == 0) CHECK(c == Approx(std::hypot(x, y)));
+      else CHECK(geometry::cos_k(room.space, c) == Approx(geometry::cos_k(room.space, x) * geometry::cos_k(room.space, y)));
+    }
+  }
+  const room::Room square = make_room("*2222");
+  const Point p = locate(at(scene::AtXy{0.25, -0.5}), square).value();
+  CHECK((p.x == 0.25 && p.y == -0.5));
+  const auto outside = locate(at(scene::AtXy{0, 60}), make_room("*22222"));
+  REQUIRE(!outside);
+  CHECK(outside.error()[0].code == "place.outside-room");
+}
+
 TEST_CASE("a point at given distances from two walls has these distances", "[place]") {
   std::mt19937 random(11);
   for (const std::string& notation : notations()) {

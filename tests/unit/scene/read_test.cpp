@@ -126,6 +126,28 @@ TEST_CASE("a wall's own words replace those of all, one by one", "[scene]") {
   CHECK_FALSE(scene.room.ceiling.mirror);
 }
 
+TEST_CASE("objects are posed by up, scale and rotate, and cameras rolled and focused", "[scene]") {
+  const Scene scene = good("poses").scene;
+  const Object& statue = scene.objects[0];
+  CHECK(statue.up == Axis::minus_y);
+  CHECK(statue.scale == std::array<double, 3>{1, 1, -1.5});
+  CHECK(statue.rotate[0].degrees() == Approx(90));
+  CHECK(statue.rotate[1].radians == 0.5);
+  CHECK(statue.rotate[2].degrees() == Approx(-30));
+  CHECK(std::get<AtXy>(statue.place.floor).y == -0.1);
+  CHECK(scene.objects[1].up == Axis::plus_x);
+  CHECK(scene.objects[2].up == Axis::minus_x);
+  CHECK(scene.objects[3].up == Axis::minus_z);
+  CHECK(std::get<AtXy>(scene.lamps[0].place.floor).y == 0.2);
+  CHECK(scene.camera.roll.degrees() == Approx(-12));
+  REQUIRE(scene.camera.lens);
+  CHECK(scene.camera.lens->radius == 0.02);
+  CHECK(std::get<LookAtObject>(scene.camera.lens->focus.value).name == "statue");
+  CHECK(std::get<double>(good("lens").scene.camera.lens->focus.value) == 2.5);
+  CHECK(std::get<Place>(good("lens-focus-place").scene.camera.lens->focus.value).z == 0.2);
+  CHECK_FALSE(good("smallest").scene.camera.lens);
+}
+
 TEST_CASE("objects have names, sizes and looks", "[scene]") {
   const Scene scene = good("objects").scene;
   std::vector<std::string> names;
@@ -133,12 +155,12 @@ TEST_CASE("objects have names, sizes and looks", "[scene]") {
   CHECK(names == std::vector<std::string>{"Statue.of.liberty", "dragon", "sphere", "sphere-3", "sphere-2", "cylinder", "box", "torus",
                                           "the knot", "beam"});
   CHECK(scene.objects[0].embedding == Embedding::exponential);
-  CHECK(scene.objects[0].up == 'y');
+  CHECK(scene.objects[0].up == Axis::plus_y);
   CHECK(scene.objects[0].turn.radians == -0.5);
   CHECK(scene.objects[0].material->color == from_srgb(0.5, 0.25, 1));
-  CHECK(scene.objects[1].up == 'y');
+  CHECK(scene.objects[1].up == Axis::plus_y);
   CHECK_FALSE(scene.objects[1].material);
-  CHECK(scene.objects[2].up == 'z');
+  CHECK(scene.objects[2].up == Axis::plus_z);
   CHECK(std::get<SphereSpec>(scene.objects[3].shape).radius == 0.02);
   CHECK(std::get<CylinderSpec>(scene.objects[5].shape).height == 0.7);
   CHECK(std::get<BoxSpec>(scene.objects[6].shape).size == std::array<double, 3>{0.1, 0.2, 0.3});
