@@ -27,6 +27,7 @@ struct EnumerateArguments {
   int corners = 3;
   int max_order = 8;
   std::string space;                ///< only these; empty = all
+  bool all = false;                 ///< also more than a million
 };
 struct NewArguments {
   std::string notation = "*22222";

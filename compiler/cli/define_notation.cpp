@@ -31,10 +31,13 @@ void define_info(Program& program) {
 void define_enumerate(Program& program) {
   const auto arguments = std::make_shared<EnumerateArguments>();
   EnumerateArguments& a = *arguments;
-  CLI::App* c = program.app.add_subcommand("enumerate", "List all orbifolds with a given number of corners, by space");
+  CLI::App* c = program.app.add_subcommand(
+      "enumerate",
+      "List all orbifolds with a given number of corners, one a line: notation, space, Euler characteristic");
   c->add_option("--corners", a.corners, "Number of corners (and walls)")->capture_default_str()->check(CLI::Range(0, 40))->type_name("N");
   c->add_option("--max-order", a.max_order, "Largest corner order")->capture_default_str()->check(CLI::Range(2, 1000000))->type_name("K");
   c->add_option("--space", a.space, "Only these")->check(CLI::IsMember({"spherical", "euclidean", "hyperbolic"}))->type_name("NAME");
+  c->add_flag("--all", a.all, "List more than a million, too");
   c->footer("Examples:\n  orbc enumerate --corners 3 --max-order 8\n  orbc enumerate --corners 4 --max-order 3 --json");
   add_common(*c, program.common);
   program.commands.push_back({c, [arguments](const Common& common) { return enumerate(*arguments, common); }});

@@ -71,6 +71,7 @@ constexpr Row kOptions[] = {
     {"format", kPictures | kSvg, in_plans},
     {"report", kExports, in_plans},
     {"nodes-per-copy", kGltf, in_plans},
+    {"nodes-per-object", kGltf, in_plans},
     {"size", kPictures, never},
     {"max-bounces", kPictures | kSvg, never},
     {"projection", kPictures, never},

@@ -3,11 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/cli/commands.h"
+#include "compiler/cli/expanded_star.h"
 #include "compiler/cli/output.h"
-#include "compiler/cli/progress_bar.h"
 #include "compiler/cli/support.h"
 #include "compiler/notation/classify.h"
-#include "compiler/notation/enumerate.h"
 #include "compiler/notation/euler.h"
 #include "compiler/notation/growth.h"
 #include "compiler/notation/parse.h"
@@ -33,7 +32,7 @@ Result<Facts> facts_of(const InfoArguments& a, Diagnostics& notes) {
   options.allow_non_orbifold = a.allow_non_orbifold;
   options.span = {std::make_shared<SourceText>(SourceText{"notation", a.notation}), 1, 1, a.notation.size()};
   auto parsed = notation::parse_with_notes(a.notation, options);
-  if (!parsed) return parsed.error();
+  if (!parsed) return with_star_hint(parsed.error(), a.notation);
   notes = parsed->notes;
   Facts facts;
   facts.orbifold = parsed->orbifold;
@@ -131,29 +130,6 @@ int info(const InfoArguments& a, const Common& common) {
   if (!facts) return print(facts.error(), common), kSceneWrong;
   if (!common.quiet) for (const Diagnostic& note : notes) std::fputs(to_text(note).c_str(), stderr);
   write_output("-", common.json ? json_text(*facts) : people_text(*facts));
-  return kDone;
-}
-
-int enumerate(const EnumerateArguments& a, const Common& common) {
-  std::string text = common.json ? "[" : "";
-  std::string last;
-  bool first = true;
-  const auto done = notation::enumerate(a.corners, a.max_order, [&](const notation::Orbifold& orbifold, geometry::Space space) {
-    const std::string name = geometry::name(space);
-    if (!a.space.empty() && a.space != name) return true;
-    if (common.json)
-      text += fmt::format("{}\n  {{\"notation\": \"{}\", \"space\": \"{}\", \"chi\": \"{}\"}}", first ? "" : ",",
-                          notation::to_text(orbifold), name, to_string(notation::euler_characteristic(orbifold)));
-    else
-      text +=
-          name == last ? " " + notation::to_text(orbifold) : fmt::format("{}{}: {}", first ? "" : "\n", name, notation::to_text(orbifold));
-    first = false, last = name;
-    if (text.size() > 1 << 20) write_output("-", text), text.clear();
-    if (interrupted()) throw Cancelled();
-    return true;
-  });
-  if (!done) return print(done.error(), common), kSceneWrong;
-  write_output("-", text + (common.json ? "\n]\n" : "\n"));
   return kDone;
 }
 

@@ -14,6 +14,7 @@
 #include "compiler/base/progress.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/define.h"
+#include "compiler/cli/expanded_star.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
@@ -75,7 +76,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     if (asks_for_json(argc, argv)) print_failure("cli.usage", error.what());
-    if (told_unknown_command(app, argc, argv)) return kUsage;
+    if (told_unknown_command(app, argc, argv) || told_expanded_star(argc, argv)) return kUsage;
     app.exit(error, std::cerr, std::cerr);
     return kUsage;
   }

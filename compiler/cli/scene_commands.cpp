@@ -4,6 +4,7 @@
 
 #include "compiler/cli/commands.h"
 #include "compiler/cli/effects.h"
+#include "compiler/cli/expanded_star.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
@@ -20,8 +21,8 @@ int new_scene(const NewArguments& a, const Common& common) {
   options.span = {std::make_shared<SourceText>(SourceText{"notation", a.notation}), 1, 1, a.notation.size()};
   options.allow_non_orbifold = true;
   const auto parsed = notation::parse_with_notes(a.notation, options);
-  if (!parsed) return print(parsed.error(), common), kSceneWrong;
-  print(parsed->notes, common);
+  if (!parsed) return print(with_star_hint(parsed.error(), a.notation), common), kSceneWrong;
+  if (!common.quiet) std::fputs(to_text(parsed->notes).c_str(), stderr);
   if (!notation::is_orbifold(parsed->orbifold))
     print({make_warning("notation.non-orbifold-room",
                         "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",

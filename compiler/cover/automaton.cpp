@@ -59,7 +59,7 @@ std::uint64_t simple_bits(const Roots& runs, int walls) {
 
 // Whether a right angle makes roots of three walls, or of a corner and a third wall, possible.
 bool needs_table(const MinimalRoots& roots) {
-  if (roots.walls() != 3) return false;
+  if (roots.walls() != 3 || roots.order(1, 2) == 0) return false;
   return roots.order(0, 1) == 2 || roots.order(1, 2) == 2 || roots.order(0, 2) == 2;
 }
 

@@ -11,7 +11,7 @@
 namespace orbc::cover {
 
 /// ShortLex automaton of rooms whose minimal roots all belong to one corner: N ≥ 4, triangles without a right angle, two walls, one wall,
-/// the strip. Computed, not stored: a state is the last wall and how many roots of its two corners are taken, counted from that wall.
+/// the strips. Computed, not stored: a state is the last wall and how many roots of its two corners are taken, counted from that wall.
 /// Of each corner the first k steps of an alternating word use up its k roots one by one; a wall whose simple root is taken is barred.
 class CornerAutomaton {
  public:

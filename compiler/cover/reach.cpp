@@ -28,11 +28,8 @@ Result<Reach> reach_of(const place::PlacedRoom& room, const scene::CoverSpec& sp
         "draw it with the tracer, or use integer corners");
   }
   Reach reach;
-  if (orbifold.strip) {
-    reach.wall = {0, 2};
-  } else {
-    for (std::size_t i = 0; i < room.room.walls.size(); ++i) reach.wall.push_back(static_cast<int>(i));
-  }
+  for (std::size_t i = 0; i < room.room.walls.size(); ++i)
+    if (room.room.walls[i].reflects) reach.wall.push_back(static_cast<int>(i));
   reach.open.assign(reach.wall.size(), false);
   for (const int wall : reach.wall) reach.mirrors.push_back(room::reflection_in_wall(room.room, wall));
   const place::PlacedMirror* first = nullptr;

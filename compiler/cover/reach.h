@@ -13,7 +13,7 @@ namespace orbc::cover {
 struct Reach {
   int max_bounces = 0;                      ///< by `max_bounces` and `min_weight` together
   std::vector<scene::Color> weight;         ///< by bounces, 0 … max_bounces: multiplied mirror by mirror as the tracer does
-  std::vector<int> wall;                    ///< letter of the automaton → wall of the room (the strip `**`: 0 and 2)
+  std::vector<int> wall;                    ///< letter of the automaton → wall of the room (`**`: 0 and 2; `*22∞`: 0, 1 and 3)
   std::vector<bool> open;                   ///< by letter: the wall carries a mirror
   std::vector<geometry::Isometry> mirrors;  ///< by letter: the reflection in the wall
   int half_turn = 0;                        ///< S²: bounces of every path of length π, the length of the longest word; 0 elsewhere

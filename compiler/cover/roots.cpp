@@ -26,7 +26,7 @@ constexpr Real kMatchRadius = 1e-6;     // much larger than any error bound, muc
 MinimalRoots::MinimalRoots(const notation::Orbifold& orbifold) {
   const int corner_count = static_cast<int>(orbifold.corners.size());
   ORBC_CHECK(corner_count, <=, 256);
-  walls_ = orbifold.strip ? 2 : std::max(corner_count, 1);
+  walls_ = notation::is_half_strip(orbifold) ? 3 : orbifold.strip ? 2 : std::max(corner_count, 1);
   std::vector<int> orders;
   for (const Rational& corner : orbifold.corners) {
     ORBC_CHECK(static_cast<double>(denominator(corner)), ==, 1.0);
@@ -36,8 +36,8 @@ MinimalRoots::MinimalRoots(const notation::Orbifold& orbifold) {
   }
   ORBC_CHECK(corner_count, !=, 1);
   if (corner_count == 2) ORBC_CHECK(orders[0], ==, orders[1]);
-  if (corner_count == 2) corners_.push_back({0, 1, orders[0], 0});
-  for (int i = 0; corner_count > 2 && i < corner_count; ++i)
+  if (corner_count == 2 && walls_ == 2) corners_.push_back({0, 1, orders[0], 0});
+  for (int i = 0; walls_ > 2 && i < corner_count; ++i)  // of the half strip: corner 1 of walls 3 and 1, corner 2 of walls 1 and 2
     corners_.push_back({(i + walls_ - 1) % walls_, i, orders[static_cast<std::size_t>(i)], 0});
   Root offset = walls_;
   for (Corner& corner : corners_) {
@@ -45,15 +45,14 @@ MinimalRoots::MinimalRoots(const notation::Orbifold& orbifold) {
     offset += corner.order - 2;
   }
   first_triple_ = offset;
-  if (walls_ == 3) find_triples();
+  if (corners_.size() == 3) find_triples();
 }
 
 int MinimalRoots::corner_between(int wall, int other) const {
   if (corners_.empty() || wall == other) return -1;
   if (walls_ == 2) return 0;
-  if ((wall + 1) % walls_ == other) return other;
-  if ((other + 1) % walls_ == wall) return wall;
-  return -1;
+  const int corner = (wall + 1) % walls_ == other ? other : (other + 1) % walls_ == wall ? wall : -1;
+  return corner < static_cast<int>(corners_.size()) ? corner : -1;  // walls 2 and 3 of the half strip are parallel
 }
 
 int MinimalRoots::order(int wall, int other) const {

@@ -59,8 +59,8 @@ using TakeCopy = std::function<bool(const FloorCopy&)>;
 
 void group_copies(const place::PlacedRoom& room, const Mirrors& mirrors, int bounces, const TakeCopy& take) {
   std::vector<int> wall;
-  if (room.room.orbifold.strip) wall = {0, 2};
-  else for (std::size_t i = 0; i < room.room.walls.size(); ++i) wall.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < room.room.walls.size(); ++i)
+    if (room.room.walls[i].reflects) wall.push_back(static_cast<int>(i));
   std::vector<Isometry> reflections;
   bool all_open = true;
   for (const int w : wall) {

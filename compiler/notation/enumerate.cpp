@@ -109,8 +109,14 @@ Result<bool> enumerate(int corners, int max_order, const OrbifoldVisitor& visit)
   return Necklaces(corners, max_order, visit).run();
 }
 
-Result<Integer> count_orbifolds(int corners, int max_order) {
+Result<Integer> count_orbifolds(int corners, int max_order, std::optional<Space> space) {
   if (Diagnostics errors = range_errors(corners, max_order); !errors.empty()) return errors;
+  if (space == Space::hyperbolic) {
+    Integer rest = *count_orbifolds(corners, max_order);
+    for (const Space other : {Space::spherical, Space::euclidean}) rest -= Integer(not_hyperbolic(corners, max_order, other).size());
+    return rest;
+  }
+  if (space) return Integer(not_hyperbolic(corners, max_order, *space).size());
   if (corners == 1) return Integer(1);
   const Integer letters = max_order - 1;
   if (corners == 2) return letters;

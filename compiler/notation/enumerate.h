@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 
 #include "compiler/base/result.h"
 #include "compiler/geometry/space.h"
@@ -17,7 +18,8 @@ using OrbifoldVisitor = std::function<bool(const Orbifold&, geometry::Space)>;
 /// Diagnostics: notation.enumerate-out-of-range.
 [[nodiscard]] Result<bool> enumerate(int corners, int max_order, const OrbifoldVisitor& visit);
 
-/// How many orbifolds `enumerate` lists, exactly. Source: Burnside's lemma on necklaces up to rotation and reflection.
-[[nodiscard]] Result<Integer> count_orbifolds(int corners, int max_order);
+/// How many orbifolds `enumerate` lists, or how many of one space, exactly. Source: Burnside's lemma on necklaces up to rotation and
+/// reflection.
+[[nodiscard]] Result<Integer> count_orbifolds(int corners, int max_order, std::optional<geometry::Space> space = {});
 
 }  // namespace orbc::notation

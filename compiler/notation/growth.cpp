@@ -149,7 +149,8 @@ std::optional<Integer> group_order(const Orbifold& orbifold) {
 }
 
 std::optional<GrowthSeries> growth_series(const Orbifold& orbifold, int max_degree) {
-  if (orbifold.strip) return GrowthSeries{{1, 1}, {1, -1}};
+  // Two parallel mirrors make (1 + t)/(1 − t); a mirror at right angles to both gives a factor 1 + t.
+  if (orbifold.strip) return is_half_strip(orbifold) ? GrowthSeries{{1, 2, 1}, {1, -1}} : GrowthSeries{{1, 1}, {1, -1}};
   const std::vector<int> orders = orders_of(orbifold);
   if (space_of(orbifold) == Space::spherical) {
     const int length = *longest_length(orbifold);

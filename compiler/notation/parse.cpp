@@ -1,277 +1,131 @@
-// Text → characters (code points with their places) → tokens (star, order, x, o) → Conway symbol → orbifold or its refusal.
-// In compact text each digit is a token; where corners are separated, a run of digits is. Every token remembers where it stands.
+// Text → characters (code points with their places) → tokens (star, order, x, o) → Conway symbol → orbifold or its refusal; other
+// notations are translated first (translate.h). Spellings of Conway's symbols that leave no doubt are read like the usual one, with a note.
 #include "compiler/notation/parse.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
+#include "compiler/notation/characters.h"
 #include "compiler/notation/classify.h"
 #include "compiler/notation/conway.h"
-#include "compiler/notation/euler.h"
 #include "compiler/notation/print.h"
+#include "compiler/notation/scan.h"
+#include "compiler/notation/translate.h"
 
 namespace orbc::notation {
 namespace {
 
-constexpr std::size_t kMaxBytes = 8192;  // 256 corners, each the longest fraction in parentheses
-constexpr std::size_t kMaxDigits = 7;    // as many as kMaxOrder has; of a decimal number before and behind its point
-// A decimal number of so many digits is printed as a fraction: parse(to_text(o)) = o.
-constexpr std::size_t kMaxAbove = 2 * kMaxDigits, kMaxBelow = kMaxDigits + 1;
-constexpr std::size_t kQuotedCharacters = 40;
-
-enum class Kind { star, order, cross_cap, wonder_ring };
-
-struct Token {
-  Kind kind;
-  std::size_t begin = 0, length = 1;  // in characters
-  std::optional<Rational> value;      // orders only; nothing: ∞
-};
-
-// The code points of UTF-8 text; bytes that are none stand for themselves above the range of Unicode, so that nothing matches them.
-std::u32string characters_of(std::string_view text) {
-  std::u32string characters;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-    const std::size_t length = byte(i) < 0x80 ? 1 : byte(i) >= 0xC2 && byte(i) < 0xE0 ? 2 : byte(i) >= 0xE0 && byte(i) < 0xF0 ? 3 : 0;
-    bool whole = length > 0 && i + length <= text.size();
-    char32_t code = length == 1 ? byte(i) : length == 2 ? byte(i) & 0x1Fu : byte(i) & 0x0Fu;
-    for (std::size_t k = 1; whole && k < length; ++k) {
-      whole = (byte(i + k) & 0xC0) == 0x80;
-      code = code << 6 | (byte(i + k) & 0x3Fu);
-    }
-    characters += whole ? code : char32_t{0x110000} + byte(i);
-    i += whole ? length : 1;
-  }
-  return characters;
-}
-
-bool is_blank(char32_t c) { return c == U' ' || c == U'\t' || c == U'\n' || c == U'\r'; }
-bool is_digit(char32_t c) { return c >= U'0' && c <= U'9'; }
-bool is_star(char32_t c) { return c == U'*' || c == U'\u2217'; }
-bool is_cross(char32_t c) { return c == U'x' || c == U'X' || c == U'\u00D7'; }
-bool is_ring(char32_t c) { return c == U'o' || c == U'O' || c == U'\u2218' || c == U'\u25CB'; }
-constexpr char32_t kInfinity = U'\u221E';
+using Kind = TokenKind;
 
 class Reader {
  public:
-  Reader(std::string_view text, const ParseOptions& options)
-      : text_(text), options_(options), characters_(characters_of(text.substr(0, kMaxBytes))) {
-    if (!options_.span.source)
-      options_.span = {std::make_shared<SourceText>(SourceText{"notation", std::string(text.substr(0, kMaxBytes))}), 1, 1, 1};
-    else skip_quote();
-  }
+  Reader(std::string_view text, const ParseOptions& options) : size_(text.size()), options_(options), text_(text, options.span) {}
 
   Result<Parsed> read() {
-    if (text_.size() > kMaxBytes)
-      return error("notation.too-long", fmt::format("{} bytes are too long for a notation", text_.size()), 0, 1);
-    if (!scan()) return errors_;
+    if (size_ > SymbolText::kMaxBytes)
+      return text_.error("notation.too-long", fmt::format("{} bytes are too long for a notation", size_), 0, 1);
+    if (const auto translation = translate(ascii_of(text_.inner()))) return translated(*translation);
+    Result<Tokens> tokens = scan(text_);
+    if (!tokens) return misread(std::move(tokens).error());
+    tokens_ = std::move(tokens->list);
+    separated_ = tokens->separated;
     if (tokens_.empty())
-      return error("notation.empty", "the orbifold notation is empty", 0, 1, "a room with mirrors is * followed by its corners: *22222");
-    if (tokens_.size() == 2 && tokens_[0].kind == Kind::star && tokens_[1].kind == Kind::star) return Parsed{{{}, true}, {}};
-    const bool kaleidoscopic = tokens_[0].kind == Kind::star && std::all_of(tokens_.begin() + 1, tokens_.end(), [](const Token& t) {
-                                 return t.kind == Kind::order && t.value;
-                               });
+      return text_.error("notation.empty", "the orbifold notation is empty", 0, 1,
+                         "a room with mirrors is * followed by its corners: *22222");
+    if (tokens_.size() == 2 && tokens_[0].kind == Kind::star && tokens_[1].kind == Kind::star) return noted({{{}, true}, {}});
+    const bool kaleidoscopic = tokens_[0].kind == Kind::star &&
+                               std::all_of(tokens_.begin() + 1, tokens_.end(), [](const Token& t) { return t.kind == Kind::order; });
     return kaleidoscopic ? orbifold() : refusal();
   }
 
  private:
-  // ---- places ----------------------------------------------------------------------------------------------------------------
-
-  SourceSpan place(std::size_t begin, std::size_t length) const {
-    SourceSpan span = options_.span;
-    if (span.line == 0) return span;
-    span.column += begin;
-    span.length = length;
-    return span;
-  }
-
-  SourceSpan whole() const {
-    std::size_t begin = 0, end = characters_.size();
-    while (begin < end && is_blank(characters_[begin])) ++begin;
-    while (end > begin && is_blank(characters_[end - 1])) --end;
-    return place(begin, std::max<std::size_t>(end - begin, 1));
-  }
-
-  // Spans of YAML scalars begin at the quotation mark; the text behind it does not contain it.
-  void skip_quote() {
-    SourceSpan& span = options_.span;
-    std::string_view rest = span.source->text;
-    for (std::size_t line = 1; line < span.line && !rest.empty(); ++line)
-      rest.remove_prefix(std::min(rest.size(), rest.find('\n') == std::string_view::npos ? rest.size() : rest.find('\n') + 1));
-    const std::u32string line = characters_of(rest.substr(0, std::min(rest.find('\n'), kMaxBytes)));
-    if (span.line == 0 || span.column == 0 || span.column > line.size()) return;
-    const char32_t quote = line[span.column - 1];
-    if ((quote == U'"' || quote == U'\'') && (characters_.empty() || characters_[0] != quote)) ++span.column;
-  }
-
-  Diagnostic error(const std::string& code, const std::string& message, std::size_t begin, std::size_t length,
-                   const std::string& hint = {}) const {
-    return make_error(code, message, hint, place(begin, length));
-  }
-
   bool fail(Diagnostic diagnostic) {
     errors_.push_back(std::move(diagnostic));
     return false;
   }
 
-  std::string shown(std::size_t at) const {
-    const char32_t c = characters_[at];
-    if (c >= 0x110000) return fmt::format("byte {:02X}", static_cast<unsigned>(c - 0x110000));
-    if (c < 0x20 || (c >= 0x7F && c < 0xA0)) return fmt::format("control character {:02X}", static_cast<unsigned>(c));
-    std::string utf8;
-    if (c < 0x80) utf8 = static_cast<char>(c);
-    else if (c < 0x800) utf8 = {static_cast<char>(0xC0 | c >> 6), static_cast<char>(0x80 | (c & 0x3F))};
-    else utf8 = {static_cast<char>(0xE0 | c >> 12), static_cast<char>(0x80 | (c >> 6 & 0x3F)), static_cast<char>(0x80 | (c & 0x3F))};
-    return "'" + utf8 + "'";
+  // What begins with no character of a symbol may be meant as the name of a group.
+  Diagnostics misread(Diagnostics errors) const {
+    if (errors.front().span.column > text_.whole().column) return errors;
+    const std::string near = nearest_group_name(ascii_of(text_.inner()));
+    if (!near.empty()) errors.front().hint = fmt::format("did you mean {}?", near);
+    return errors;
   }
-
-  bool unexpected(std::size_t at, const std::string& hint = "corners are digits, (10) or (3/2), as in *23(10) or *2 3 10") {
-    if (at >= characters_.size()) return fail(error("notation.unexpected-character", "the notation ends too early", at, 1, hint));
-    return fail(error("notation.unexpected-character", shown(at) + " does not belong into an orbifold notation", at, 1, hint));
-  }
-
-  // ---- tokens ----------------------------------------------------------------------------------------------------------------
-
-  // Corners are separated when a comma stands outside parentheses, or blanks stand between two digits.
-  bool is_separated() const {
-    bool inside = false;
-    for (std::size_t i = 0; i < characters_.size(); ++i) {
-      const char32_t c = characters_[i];
-      if (c == U'(') inside = true;
-      if (c == U')') inside = false;
-      if (inside) continue;
-      if (c == U',') return true;
-      if (!is_blank(c) || i == 0 || !is_digit(characters_[i - 1])) continue;
-      while (i + 1 < characters_.size() && is_blank(characters_[i + 1])) ++i;
-      if (i + 1 < characters_.size() && (is_digit(characters_[i + 1]) || characters_[i + 1] == U'-')) return true;
-    }
-    return false;
-  }
-
-  bool scan() {
-    separated_ = is_separated();
-    bool comma = false;  // seen since the last token: another order must follow
-    for (std::size_t at = 0; at < characters_.size();) {
-      const char32_t c = characters_[at];
-      if (is_blank(c)) {
-        ++at;
-        continue;
-      }
-      if (c == U',') {
-        if (comma || tokens_.empty() || tokens_.back().kind != Kind::order)
-          return unexpected(at, "a comma stands between two corners: *2,3,10");
-        comma = true, ++at;
-        continue;
-      }
-      const bool is_order = is_digit(c) || c == U'(' || c == U'-' || c == kInfinity;
-      if (comma && !is_order) return unexpected(at, "a comma stands between two corners: *2,3,10");
-      comma = false;
-      if (is_order) {
-        if (!scan_order(at)) return false;
-        continue;
-      }
-      if (!is_star(c) && !is_cross(c) && !is_ring(c))
-        return unexpected(at, c == U'.' || c == U'/' ? "put real corners into parentheses: *(3/2)(12)(12), *(2.5)44"
-                                                     : "corners are digits, (10) or (3/2), as in *23(10) or *2 3 10");
-      tokens_.push_back({is_star(c) ? Kind::star : is_cross(c) ? Kind::cross_cap : Kind::wonder_ring, at, 1, {}});
-      ++at;
-    }
-    if (comma) return unexpected(characters_.size(), "a comma stands between two corners: *2,3,10");
-    return true;
-  }
-
-  // One order at `at`, which moves behind it: a digit, a number where corners are separated, (number), ∞.
-  bool scan_order(std::size_t& at) {
-    const std::size_t begin = at;
-    if (characters_[at] == kInfinity) {
-      tokens_.push_back({Kind::order, begin, 1, {}});
-      ++at;
-      return true;
-    }
-    const bool parenthesis = characters_[at] == U'(';
-    if (!parenthesis && !separated_ && is_digit(characters_[at])) {
-      tokens_.push_back({Kind::order, begin, 1, Rational(static_cast<int>(characters_[at] - U'0'))});
-      ++at;
-      return true;
-    }
-    if (parenthesis) {
-      ++at;
-      skip_blanks(at);
-    }
-    std::optional<Rational> value;
-    if (parenthesis && at < characters_.size() && characters_[at] == kInfinity) ++at;
-    else if (!scan_number(at, begin, value)) return false;
-    if (parenthesis) {
-      skip_blanks(at);
-      if (at >= characters_.size())
-        return fail(
-            error("notation.unclosed-parenthesis", "this parenthesis is not closed", begin, 1, "write (10) for a corner of order 10"));
-      if (characters_[at] != U')') return unexpected(at, "a parenthesis holds one corner: (10), (3/2) or (2.5)");
-      ++at;
-    }
-    tokens_.push_back({Kind::order, begin, at - begin, value});
-    return true;
-  }
-
-  void skip_blanks(std::size_t& at) const {
-    while (at < characters_.size() && is_blank(characters_[at])) ++at;
-  }
-
-  // [-]digits, [-]digits/digits or [-]digits.digits as an exact rational.
-  bool scan_number(std::size_t& at, std::size_t token, std::optional<Rational>& value) {
-    const bool negative = at < characters_.size() && characters_[at] == U'-';
-    if (negative) ++at;
-    std::string digits = scan_digits(at), below;
-    if (digits.empty()) return unexpected(at, "a corner is a number: 3, (10), (3/2) or (2.5)");
-    const char32_t mark = at < characters_.size() ? characters_[at] : U' ';
-    if (mark == U'/' || mark == U'.') {
-      below = scan_digits(++at);
-      if (below.empty()) return unexpected(at, "a real corner is a fraction or a decimal number: (3/2) or (2.5)");
-    }
-    const auto significant = [](std::string s) { return s.erase(0, s.find_first_not_of('0')); };
-    const bool fraction = mark == U'/';
-    if (significant(digits).size() > (fraction ? kMaxAbove : kMaxDigits) ||
-        (fraction ? significant(below).size() > kMaxBelow : below.size() > kMaxDigits))
-      return fail(error("notation.order-out-of-range", "this corner has too many digits", token, at - token,
-                        fmt::format("orders are at most {}", kMaxOrder)));
-    // A leading zero would make the number octal.
-    const auto number = [&](const std::string& s) { return Integer(significant(s).empty() ? "0" : significant(s)); };
-    const Integer scale =
-        mark == U'/' ? number(below) : boost::multiprecision::pow(Integer(10), static_cast<unsigned>(mark == U'.' ? below.size() : 0));
-    if (scale == 0) return fail(error("notation.order-out-of-range", "this corner divides by zero", token, at - token));
-    Rational result(mark == U'.' ? Integer(number(digits) * scale + number(below)) : number(digits), scale);
-    value = negative ? Rational(-result) : result;
-    return true;
-  }
-
-  std::string scan_digits(std::size_t& at) const {
-    std::string digits;
-    for (; at < characters_.size() && is_digit(characters_[at]); ++at) digits += static_cast<char>(characters_[at]);
-    return digits;
-  }
-
-  // ---- meaning ---------------------------------------------------------------------------------------------------------------
 
   Result<Parsed> orbifold() {
     Parsed parsed;
+    std::size_t endless = 0;  // corners of order ∞
     for (std::size_t i = 1; i < tokens_.size(); ++i) {
       const Token& token = tokens_[i];
+      if (!token.value) {
+        ++endless;
+        continue;
+      }
       const Rational& order = *token.value;
       if (order == 1)
         parsed.notes.push_back(make_note("notation.corner-of-order-one", "a corner of order 1 is a straight angle and is left out", "",
-                                         place(token.begin, token.length)));
+                                         text_.place(token.begin, token.length)));
       else if (check_order(token)) parsed.orbifold.corners.push_back(order);
     }
     if (parsed.orbifold.corners.size() > static_cast<std::size_t>(kMaxCorners)) {
       const Token& first = tokens_[static_cast<std::size_t>(kMaxCorners) + 1];
-      fail(error("notation.too-many-corners",
-                 fmt::format("{} corners are more than the {} that are supported", parsed.orbifold.corners.size(), kMaxCorners),
-                 first.begin, first.length));
+      fail(text_.error("notation.too-many-corners",
+                       fmt::format("{} corners are more than the {} that are supported", parsed.orbifold.corners.size(), kMaxCorners),
+                       first.begin, first.length));
     }
     if (!errors_.empty()) return errors_;
-    if (Result<geometry::Space> space = classify(parsed.orbifold, whole()); !space) return std::move(space).error();
+    if (endless > 0) return unbounded(std::move(parsed), endless);
+    if (Result<geometry::Space> space = classify(parsed.orbifold, text_.whole()); !space) return std::move(space).error();
+    return noted(std::move(parsed));
+  }
+
+  // Mirrors that meet at infinity: of E² they are parallel, and plain end walls close the room; of H² its corner is a cusp.
+  Result<Parsed> unbounded(Parsed parsed, std::size_t endless) {
+    const std::vector<Rational>& corners = parsed.orbifold.corners;
+    const bool right = std::all_of(corners.begin(), corners.end(), [](const Rational& k) { return k == 2; });
+    if (right && ((corners.empty() && endless == 2) || (corners.size() == 2 && endless == 1))) {
+      parsed.orbifold.strip = true;
+      text_.respelled = text_.respelled || corners.empty() || tokens_.back().value.has_value();
+      return noted(std::move(parsed));
+    }
+    if (corners.size() + endless < 3)
+      return text_.error("notation.bad-orbifold", text_.quoted() + " closes in no space of constant curvature", text_.begin,
+                         text_.end - text_.begin, "two parallel mirrors are **, with a third across them *22∞");
+    Orbifold near;
+    for (std::size_t i = 1; i < tokens_.size(); ++i)
+      if (tokens_[i].value != Rational(1)) near.corners.push_back(tokens_[i].value.value_or(Rational(60)));
+    return text_.error(
+        "notation.not-closed",
+        text_.quoted() +
+            " is kaleidoscopic, but some of its mirrors meet at infinity: its room is not closed there, and cusps are not drawn",
+        text_.begin, text_.end - text_.begin, fmt::format("a large order comes close: {}", to_text(near)));
+  }
+
+  // Says how an unusual spelling was read.
+  Parsed noted(Parsed parsed) const {
+    if (text_.respelled)
+      parsed.notes.push_back(
+          make_note("notation.read-as", fmt::format("{} is read as {}", text_.quoted(), to_text(parsed.orbifold)), "", text_.whole()));
+    return parsed;
+  }
+
+  Result<Parsed> translated(const Translation& translation) const {
+    if (translation.conway.empty())
+      return make_error("notation.no-room", fmt::format("{} {}", text_.quoted(), translation.trouble), translation.hint, text_.whole());
+    ParseOptions options;
+    options.allow_non_orbifold = options_.allow_non_orbifold;
+    Result<Parsed> parsed = parse_with_notes(translation.conway, options);
+    if (!parsed) {
+      Diagnostics errors = std::move(parsed).error();
+      for (Diagnostic& error : errors) {
+        error.message = fmt::format("{} is written {}: {}", text_.quoted(), translation.conway, error.message);
+        error.span = text_.whole();
+      }
+      return errors;
+    }
+    parsed->notes = {
+        make_note("notation.read-as", fmt::format("{} is read as {}", text_.quoted(), to_text(parsed->orbifold)), "", text_.whole())};
     return parsed;
   }
 
@@ -281,16 +135,17 @@ class Reader {
     if (order < 1) {
       const std::string angle =
           order > 0 ? "its angle would be larger than a straight one" : "a corner has the angle π/k with k of at least 2";
-      return fail(error("notation.order-out-of-range", fmt::format("a corner cannot have order {}: {}", to_string(order), angle),
-                        token.begin, token.length, separated_ || order != 0 ? "" : "write 10 as (10) or separate all corners: *2 3 10"));
+      return fail(text_.error("notation.order-out-of-range", fmt::format("a corner cannot have order {}: {}", to_string(order), angle),
+                              token.begin, token.length,
+                              separated_ || order != 0 ? "" : "write 10 as (10) or separate all corners: *2 3 10"));
     }
     if (order > kMaxOrder)
-      return fail(error("notation.order-out-of-range", fmt::format("order {} is larger than {}", to_string(order), kMaxOrder), token.begin,
-                        token.length));
+      return fail(text_.error("notation.order-out-of-range", fmt::format("order {} is larger than {}", to_string(order), kMaxOrder),
+                              token.begin, token.length));
     if (!whole_number && !options_.allow_non_orbifold)
-      return fail(error("notation.non-orbifold-corner",
-                        fmt::format("order {} is no integer: the mirror images of this corner do not close", to_string(order)), token.begin,
-                        token.length, "rooms that are no orbifolds need allow_non_orbifold: true"));
+      return fail(text_.error("notation.non-orbifold-corner",
+                              fmt::format("order {} is no integer: the mirror images of this corner do not close", to_string(order)),
+                              token.begin, token.length, "rooms that are no orbifolds need allow_non_orbifold: true"));
     return true;
   }
 
@@ -300,14 +155,14 @@ class Reader {
     const Token* culprit = nullptr;
     for (const Token& token : tokens_) {
       if (token.kind == Kind::order && token.value && (*token.value < 1 || denominator(*token.value) != 1 || *token.value > kMaxOrder))
-        return error("notation.order-out-of-range", fmt::format("a gyration point or corner cannot have order {}", to_string(*token.value)),
-                     token.begin, token.length);
+        return text_.error("notation.order-out-of-range",
+                           fmt::format("a gyration point or corner cannot have order {}", to_string(*token.value)), token.begin,
+                           token.length);
       const int order = token.value ? static_cast<int>(numerator(*token.value)) : 0;
       const bool late = token.kind == Kind::wonder_ring ? !symbol.gyrations.empty() || !symbol.boundaries.empty() || symbol.crosscaps > 0
                                                         : token.kind != Kind::cross_cap && symbol.crosscaps > 0;
       if (late) {
-        unexpected(token.begin, "Conway's order is: o, gyration points, * with its corners, x");
-        return errors_;
+        return text_.unexpected(token.begin, "Conway's order is: o, gyration points, * with its corners, x");
       }
       bool foreign = true;
       if (token.kind == Kind::star) foreign = !symbol.boundaries.empty(), symbol.boundaries.emplace_back();
@@ -318,11 +173,10 @@ class Reader {
       if (foreign && !culprit) culprit = &token;
     }
     const std::string name = usual_name(symbol);
-    std::string text(text_);
-    if (characters_.size() > kQuotedCharacters) text = "this symbol";
-    return error("notation.not-kaleidoscopic",
-                 fmt::format("{}{} is not kaleidoscopic: it has {}", text, name.empty() ? "" : " (" + name + ")", features(symbol)),
-                 culprit->begin, culprit->length, hint_for(symbol));
+    return text_.error(
+        "notation.not-kaleidoscopic",
+        fmt::format("{}{} is not kaleidoscopic: it has {}", text_.quoted(), name.empty() ? "" : " (" + name + ")", features(symbol)),
+        culprit->begin, culprit->length, hint_for(symbol));
   }
 
   std::string hint_for(const ConwaySymbol& symbol) const {
@@ -333,15 +187,12 @@ class Reader {
         if (order > 1) mirrored.corners.emplace_back(order);
       if (classify(mirrored)) return fmt::format("with mirrors it is {}", to_text(mirrored));
     }
-    if (symbol.gyrations.empty() && symbol.crosscaps == 0 && symbol.boundaries.size() == 1 &&
-        symbol.boundaries[0] == std::vector<int>{0, 0})
-      return "two parallel mirrors are written **";
-    return "a room is closed by mirrors alone: * followed by its corners; other orbifolds are not supported yet";
+    return "a room is closed by mirrors alone, * followed by its corners; turns and glide reflections are not drawn yet";
   }
 
-  std::string_view text_;
+  std::size_t size_;
   ParseOptions options_;
-  std::u32string characters_;
+  SymbolText text_;
   bool separated_ = false;
   std::vector<Token> tokens_;
   Diagnostics errors_;

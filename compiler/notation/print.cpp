@@ -8,7 +8,7 @@
 namespace orbc::notation {
 
 std::string to_text(const Orbifold& orbifold) {
-  if (orbifold.strip) return "**";
+  if (orbifold.strip) return is_half_strip(orbifold) ? "*22∞" : "**";
   std::string text(1, '*');
   for (const Rational& corner : orbifold.corners) {
     const std::string number = to_string(corner);

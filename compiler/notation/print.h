@@ -5,7 +5,7 @@
 
 namespace orbc::notation {
 
-/// "*22222", "*23(10)", "*(3/2)44", "*", "**": compact, in the orbifold's own corner order.
+/// "*22222", "*23(10)", "*(3/2)44", "*", "**", "*22∞": compact, in the orbifold's own corner order.
 [[nodiscard]] std::string to_text(const Orbifold& orbifold);
 
 /// The lexicographically smallest rotation or reflection of the corners: `*362` and `*632` become `*236`.

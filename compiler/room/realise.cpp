@@ -42,7 +42,7 @@ Diagnostics shape_faults(const Shape& shape, Space space, bool strip, bool recta
   if (shape.scale != 1 && space != Space::euclidean)
     faults.push_back(unused("scale", "in the Euclidean plane: curved rooms are measured in curvature radii"));
   if (shape.aspect != 1 && !rectangle) faults.push_back(unused("aspect", "for *2222"));
-  if (shape.strip_length != 4 && !strip) faults.push_back(unused("strip_length", "for the strip **"));
+  if (shape.strip_length != 4 && !strip) faults.push_back(unused("strip_length", "for the strips ** and *22∞"));
   if (!shape.cuts.empty() && shape.kind != ShapeKind::paper) faults.push_back(unused("cuts", "with shape: paper"));
   if (!shape.lengths.empty() && shape.kind != ShapeKind::lengths) faults.push_back(unused("lengths", "with shape: lengths"));
   const bool chosen = !shape.cuts.empty() || (shape.kind == ShapeKind::lengths && !shape.lengths.empty());
@@ -139,9 +139,11 @@ Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shap
   Room room;
   if (orbifold.strip) {
     const std::vector<CornerAngle> angles = corner_angles(std::vector<Rational>(4, 2));
-    const Polygon polygon = rectangle(Real(shape.strip_length) * shape.scale, 2 * Real(shape.scale));
+    const bool half = notation::is_half_strip(orbifold);
+    const Real width = 2 * Real(shape.scale), length = Real(shape.strip_length) * shape.scale;
+    const Polygon polygon = half ? rectangle(width, length) : rectangle(length, width);
     room = settle(polygon, angles);
-    room.walls[1].reflects = room.walls[3].reflects = false;
+    for (const std::size_t end : half ? std::vector<std::size_t>{2} : std::vector<std::size_t>{1, 3}) room.walls[end].reflects = false;
     room.area = area_of(polygon, chi);
   } else if (orders.empty()) {
     room = hemisphere();

@@ -13,13 +13,13 @@ struct Corner {
   double angle = 0;                 ///< interior angle in radians, π/k
 };
 
-/// Wall i joins corner i to corner i+1 (of `*`: the whole equator; of `**`: see `mirrors`). Inside is to the left of `line`.
+/// Wall i joins corner i to corner i+1 (of `*`: the whole equator). Inside is to the left of `line`.
 struct Wall {
   geometry::Line line;
   geometry::Point start;            ///< arc length 0 of the wall
   geometry::Tangent along;          ///< direction of the wall at `start`
   double length = 0;
-  bool reflects = true;             ///< belongs to the reflection group; only the plain end walls of `**` do not
+  bool reflects = true;             ///< belongs to the reflection group; only the plain end walls of strips do not
 };
 
 /// What is known for sure of a realised room, from its stored doubles alone: exact signs, and upper bounds of residuals.
@@ -33,8 +33,8 @@ struct Certificate {
 };
 
 /// The floor of the mirror room, realised. Centre at the origin (incentre if it has one, else the normalised mean of the corners), corner 1
-/// in the direction of +x, corners counter-clockwise. `**` is a rectangle of four corners π/2: walls 1 and 3 are the mirrors, 2 and 4 plain
-/// ends. Lengths in curvature radii (E²: scene units).
+/// in the direction of +x, corners counter-clockwise. Strips are rectangles of four corners π/2: of `**` walls 1 and 3 are the mirrors, 2
+/// and 4 plain ends; of `*22∞` only wall 3 is a plain end, 2 and 4 are parallel. Lengths in curvature radii (E²: scene units).
 struct Room {
   geometry::Space space = geometry::Space::euclidean;
   notation::Orbifold orbifold;

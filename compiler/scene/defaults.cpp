@@ -28,10 +28,14 @@ Surface default_ceiling() {
   return ceiling;
 }
 
-Wall default_wall(int number, bool strip) {
+bool is_end_wall(const notation::Orbifold& orbifold, int number) {
+  return orbifold.strip && (notation::is_half_strip(orbifold) ? number == 3 : number % 2 == 0);
+}
+
+Wall default_wall(bool is_end) {
   Wall wall;
   wall.material.color = from_hex(0xC9B8A0);
-  if (!strip || number % 2 == 1) wall.mirrors.emplace_back();
+  if (!is_end) wall.mirrors.emplace_back();
   return wall;
 }
 
@@ -86,7 +90,7 @@ Scene default_scene(const notation::Orbifold& orbifold) {
   scene.cover.max_bounces = default_max_bounces(orbifold);
   scene.room.floor = default_floor();
   scene.room.ceiling = default_ceiling();
-  for (int i = 1; i <= wall_count(orbifold); ++i) scene.room.walls.push_back(default_wall(i, orbifold.strip));
+  for (int i = 1; i <= wall_count(orbifold); ++i) scene.room.walls.push_back(default_wall(is_end_wall(orbifold, i)));
   scene.camera.look_at.value = LookDirection{};
   return scene;
 }

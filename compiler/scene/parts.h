@@ -14,7 +14,7 @@ namespace orbc::scene {
 struct RoomFacts {
   int walls = 0;
   int corners = 0;
-  bool strip = false;
+  notation::Orbifold orbifold;      ///< `**` and `*22∞` have end walls and a `length`
   bool flat = false;                ///< E²: has a `scale`
   bool rectangle = false;           ///< `*2222`: has an `aspect`
 };

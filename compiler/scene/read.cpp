@@ -142,7 +142,7 @@ Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const 
 
 RoomFacts facts_of(const notation::Orbifold& orbifold) {
   const bool right_angles = std::all_of(orbifold.corners.begin(), orbifold.corners.end(), [](const Rational& k) { return k == 2; });
-  return {wall_count(orbifold), corner_count(orbifold), orbifold.strip, curvature_sign(orbifold) == 0,
+  return {wall_count(orbifold), corner_count(orbifold), orbifold, curvature_sign(orbifold) == 0,
           orbifold.corners.size() == 4 && right_angles};
 }
 

@@ -62,7 +62,7 @@ void drop_unused(const Fields& room, const RoomFacts& facts, Shape& shape) {
     room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius"),
         shape.scale = standard.scale;
   if (!facts.rectangle) room.no_effect("aspect", "only `*2222` may be stretched"), shape.aspect = standard.aspect;
-  if (!facts.strip) room.no_effect("length", "it belongs to the strip `**`"), shape.strip_length = standard.strip_length;
+  if (!facts.orbifold.strip) room.no_effect("length", "it belongs to the strips `**` and `*22∞`"), shape.strip_length = standard.strip_length;
   if (shape.kind != ShapeKind::paper) {
     for (const char* key : {"cut", "cuts"}) room.no_effect(key, "it belongs to `shape: paper`");
     shape.cuts.clear();
@@ -150,7 +150,7 @@ WallDraft read_wall(Reader& reader, const Node& node, const std::string& what) {
   WallDraft wall;
   wall.span = node.span;
   const Fields fields(reader, node, what, with_material_keys({"mirror", "mirrors", "frame"}));
-  if (has_material_key(fields)) wall.material = read_material_keys(fields, default_wall(1, false).material);
+  if (has_material_key(fields)) wall.material = read_material_keys(fields, default_wall(false).material);
   const std::string key = fields.only_one_of({"mirror", "mirrors"});
   if (key == "mirror") {
     const Node& mirror = *fields.find("mirror");
@@ -189,9 +189,8 @@ void check_mirrors(Reader& reader, const std::vector<MirrorDraft>& mirrors, doub
   }
 }
 
-Wall merged(const WallDraft& all, const WallDraft* own, int number, bool strip) {
-  Wall wall = default_wall(number, strip);
-  const bool end = strip && number % 2 == 0;
+Wall merged(const WallDraft& all, const WallDraft* own, bool end) {
+  Wall wall = default_wall(end);
   wall.span = own ? own->span : all.span;
   for (const WallDraft* draft : {&all, own}) {
     if (!draft) continue;
@@ -215,9 +214,13 @@ Wall merged(const WallDraft& all, const WallDraft* own, int number, bool strip) 
 void check_wall(Reader& reader, const Node* own, const WallDraft* draft, const Wall& wall, const RoomFacts& facts, int number,
                 double height) {
   if (!own || own->kind != NodeKind::map) return;
-  if (facts.strip && number % 2 == 0 && draft->mirrors && !draft->mirrors->empty())
-    reader.error("scene.end-wall-mirror", own->span, fmt::format("wall {} closes the strip `**` and cannot be a mirror", number),
-                 "only walls 1 and 3 of `**` are mirrors");
+  if (is_end_wall(facts.orbifold, number) && draft->mirrors && !draft->mirrors->empty()) {
+    const bool half = notation::is_half_strip(facts.orbifold);
+    reader.error("scene.end-wall-mirror", own->span,
+                 fmt::format("wall {} closes the {} and cannot be a mirror", number, half ? "half strip `*22∞`" : "strip `**`"),
+                 half ? "only walls 1, 2 and 4 of `*22∞` are mirrors; `*2222` has mirrors on all four"
+                      : "only walls 1 and 3 of `**` are mirrors; `*22∞` has a third one across, `*2222` mirrors on all four");
+  }
   if (draft->material && hidden_by_mirror(wall))
     reader.warning("scene.no-effect", draft->material->span,
                    fmt::format("nothing is seen of the material of wall {}: a mirror covers all of it", number), kShowWall);
@@ -246,7 +249,7 @@ std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& 
     const auto found = own.find(number);
     const Node* own_node = found == own.end() ? nullptr : found->second.first;
     const WallDraft* draft = own_node ? &found->second.second : nullptr;
-    walls.push_back(merged(all, draft, number, facts.strip));
+    walls.push_back(merged(all, draft, is_end_wall(facts.orbifold, number)));
     check_wall(reader, own_node, draft, walls.back(), facts, number, height);
   }
   if (all.material && facts.walls > 0 && std::all_of(walls.begin(), walls.end(), hidden_by_mirror))

@@ -63,11 +63,13 @@ std::string quoted(std::string_view text) {
 const char* about(std::string_view notation) {
   if (notation == "*") return "            # half a sphere: one mirror, no corner";
   if (notation == "**") return "           # a strip between two parallel mirrors (walls 1 and 3)";
+  if (notation == "*22∞") return "         # half a strip: mirrors 2 and 4 are parallel, 1 stands across";
   return "    # each number k is a corner of angle π/k";
 }
 
 std::string wall_hint(std::string_view notation, int walls) {
   if (notation == "**") return "Walls 1 and 3 are the mirrors, 2 and 4 the plain ends:";
+  if (notation == "*22∞") return "Walls 1, 2 and 4 are the mirrors, 3 is the plain end:";
   if (walls < 2) return "Here is only wall 1:";
   return fmt::format("Walls are numbered 1 to {}; wall 1 joins corner 1 to corner 2:", walls);
 }

@@ -66,12 +66,36 @@ with folder() as name:
     check(len(json.loads(orbc('info', '*' + '2' * 40, '--json').stdout)['sides']) == 40, 'forty corners')
     check(orbc('info', '*23').returncode == 1 and b'notation.bad-orbifold' in orbc('info', '*23').stderr, 'a bad orbifold is refused with the reason')
     check(b'^' in orbc('info', '22*').stderr, 'with a caret')
+    done = orbc('info', '{7,3}', '--json')
+    check(done.returncode == 0 and json.loads(done.stdout)['notation'] == '*237' and b'{7,3} is read as *237' in done.stderr, 'another notation is read, and how it was read is told')
+    done = orbc('info', 'p4g')
+    check(done.returncode == 1 and b'4*2' in done.stderr and b'hint' in done.stderr, 'or refused by its name')
+    half = json.loads(orbc('info', '*22∞', '--json').stdout)
+    check(half['copies_per_length'][:4] == [1, 3, 4, 4] and half['chi'] == '0' and len(half['sides']) == 4, 'info *22∞')
+
+    # a star that the shell has put file names in place of
+    globbed = where / 'globbed'
+    globbed.mkdir()
+    for file in ('a22', 'b22', 'c', 'd'):
+        (globbed / file).touch()
+    for command in ('info *22', 'info *', 'new *22'):
+        done = run(['bash', '-c', f'cd {globbed} && {ORBC} {command}'])
+        check(done.returncode == 2 and b'quote the notation' in done.stderr and b'a22' in done.stderr, f'orbc {command} among files: {done.stderr.decode()[:200]}')
+    done = run(['bash', '-c', f'cd {globbed} && {ORBC} info a*'])
+    check(done.returncode == 1 and b'quote the notation' in done.stderr, 'a star with one match')
+    check(run(['bash', '-c', f"cd {globbed} && {ORBC} info '*22'"]).returncode == 0, 'quoted it is a notation')
     done = orbc('enumerate', '--corners', '3', '--max-order', '8')
-    check(done.stdout.count(b'*') == 84 and b'euclidean: *236 *244 *333' in done.stdout, 'enumerate is the paper\'s table')
+    rows = [line.split() for line in done.stdout.decode().splitlines()]
+    check(len(rows) == 84 and ['*236', 'euclidean', 'chi', '0'] in rows and ['*237', 'hyperbolic', 'chi', '-1/84'] in rows, 'enumerate is the paper\'s table, one orbifold a line')
+    check(done.stderr == b'84 orbifolds with 3 corners of order at most 8\n' and not orbc('enumerate', '--quiet').stderr, 'enumerate says first how many there are')
+    done = orbc('enumerate', '--corners', '4', '--max-order', '1000')
+    check(done.returncode == 2 and b'124,750,374,750 orbifolds' in done.stderr and b'--all' in done.stderr and not done.stdout, f'enumerate counts before it lists more than a million {done.stderr}')
+    done = orbc('enumerate', '--corners', '4', '--max-order', '1000', '--space', 'euclidean')
+    check(done.returncode == 0 and done.stdout.split() == [b'*2222', b'euclidean', b'chi', b'0'], 'enumerate --space makes them fewer')
     check(len(json.loads(orbc('enumerate', '--corners', '4', '--max-order', '3', '--json').stdout)) > 3, 'enumerate --json')
 
     # new, check
-    for notation in ('*', '**', '*22', '*33', '*222', '*235', '*333', '*2222', '*2323', '*22222', '*237', '*23456789(10)(11)'):
+    for notation in ('*', '**', '*22∞', '{4,3}', 'p6m', '*22', '*33', '*222', '*235', '*333', '*2222', '*2323', '*22222', '*237', '*23456789(10)(11)'):
         scene = where / 'new.yaml'
         scene.write_bytes(orbc('new', notation).stdout)
         done = orbc('check', scene, '--json')

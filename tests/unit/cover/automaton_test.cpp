@@ -71,7 +71,7 @@ TEST_CASE("every triangle group lists each element once by its ShortLex form, wi
 }
 
 TEST_CASE("rooms of few and of many walls list each element once by its ShortLex form, with its descents", "[cover]") {
-  for (const char* text : {"*",       "**",      "*22",     "*33",      "*77",
+  for (const char* text : {"*",       "**",      "*22∞", "*22",     "*33",      "*77",
                            "*2222",   "*2223",   "*2232",   "*2323",    "*2332",
                            "*3333",   "*2354",   "*4532",   "*2525",    "*22222",
                            "*22223",  "*32222",  "*22333",  "*23456",   "*64253",
@@ -86,7 +86,7 @@ TEST_CASE("counts equal the growth series at any depth", "[cover]") {
   CHECK(counts(orbifold("*666"), 15)[15] == 37239);
   CHECK(counts(orbifold("*22222"), 4) == std::vector<Integer>{1, 5, 15, 40, 105});
   for (const char* text :
-       {"*732", "*372", "*(40)32", "*3(1000000)2", "*245", "*2(20)(30)", "*345", "*(10)(10)(10)", "*333", "*244", "*632", "*2222", "**"}) {
+       {"*732", "*372", "*(40)32", "*3(1000000)2", "*245", "*2(20)(30)", "*345", "*(10)(10)(10)", "*333", "*244", "*632", "*2222", "**", "*22∞"}) {
     CAPTURE(text);
     CHECK(counts(orbifold(text), 24) == expected(orbifold(text), 24));
   }
@@ -136,7 +136,7 @@ TEST_CASE("every orbifold of up to six corners counts as its growth series says"
 }
 
 TEST_CASE("the table and the computed automaton agree where both apply", "[cover]") {
-  for (const char* text : {"*", "**", "*55", "*333", "*345", "*2222", "*2345", "*22222", "*42323"}) {
+  for (const char* text : {"*", "**", "*22∞", "*55", "*333", "*345", "*2222", "*2345", "*22222", "*42323"}) {
     CAPTURE(text);
     const MinimalRoots roots(orbifold(text));
     const int length = 7;
@@ -197,7 +197,7 @@ TEST_CASE("all positive roots of a finite group are minimal", "[cover]") {
 
 TEST_CASE("any word has the normal form of its element", "[cover]") {
   std::mt19937 random(7);
-  for (const char* text : {"*235", "*237", "*732", "*245", "*333", "*22222", "*2323", "**", "*44"}) {
+  for (const char* text : {"*235", "*237", "*732", "*245", "*333", "*22222", "*2323", "**", "*22∞", "*44"}) {
     CAPTURE(text);
     const notation::Orbifold o = orbifold(text);
     const test::FieldGroup group(o);

@@ -18,7 +18,7 @@ class FieldGroup {
   using Matrix = std::vector<std::uint64_t>;  // columns: images of the simple roots
 
   explicit FieldGroup(const notation::Orbifold& o) {
-    walls_ = o.strip ? 2 : std::max<std::size_t>(o.corners.size(), 1);
+    walls_ = notation::is_half_strip(o) ? 3 : o.strip ? 2 : std::max<std::size_t>(o.corners.size(), 1);
     std::uint64_t order = 2;
     for (const Rational& k : o.corners) order = lcm(order, 2 * static_cast<std::uint64_t>(numerator(k)));
     prime_ = 2'000'000'000 / order * order + 1;

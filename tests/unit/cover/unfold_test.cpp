@@ -79,7 +79,7 @@ TEST_CASE("copies come by bounces, then by word, each once, with the weight of t
 }
 
 TEST_CASE("a wall belongs to the nearer copy exactly when it separates its copy from the eye", "[cover]") {
-  const auto room = room_of_mirrors(GENERATE("*22222", "*2323", "*237", "*333", "*236", "*222", "*235", "**"));
+  const auto room = room_of_mirrors(GENERATE("*22222", "*2323", "*237", "*333", "*236", "*222", "*235", "**", "*22∞"));
   const auto eye = eye_of(room);
   for (const auto& copy : copies_of(room, {8, 0, 0, {}})) {
     if (copy.sheet > 0) continue;
@@ -153,6 +153,16 @@ TEST_CASE("the strip unfolds through its two mirrors only", "[cover]") {
   for (const auto& copy : copies) {
     for (const auto wall : copy.word) CHECK((wall == 0 || wall == 2));
     CHECK((copy.nearer_walls & 0b1010) == 0);
+  }
+}
+
+TEST_CASE("the half strip unfolds through its three mirrors only", "[cover]") {
+  const auto room = room_of_mirrors("*22∞");
+  const auto copies = copies_of(room, {7, 0, 0, {}});
+  CHECK(copies.size() == 28);  // 15 of the strip, and 13 behind the mirror across
+  for (const auto& copy : copies) {
+    for (const auto wall : copy.word) CHECK(wall != 2);
+    CHECK((copy.nearer_walls & 0b100) == 0);
   }
 }
 

@@ -17,6 +17,7 @@ Orbifold read(const char* text) { return parse(text, {{}, true}).value(); }
 TEST_CASE("the Euler characteristic is exact", "[notation]") {
   const std::pair<const char*, Rational> cases[] = {{"*", 1},
                                                     {"**", 0},
+                                                    {"*22∞", 0},
                                                     {"*22", Rational(1, 2)},
                                                     {"*77", Rational(1, 7)},
                                                     {"*235", Rational(1, 60)},
@@ -37,7 +38,7 @@ TEST_CASE("the sign of the Euler characteristic is the space", "[notation]") {
   for (const char* text :
        {"*", "*22", "*(1000000)(1000000)", "*222", "*22(1000000)", "*233", "*234", "*235", "*532", "*(3/2)(3/2)", "*(3/2)(3/2)(3/2)"})
     CHECK(*classify(read(text)) == Space::spherical);
-  for (const char* text : {"**", "*236", "*362", "*244", "*333", "*2222", "*(3/2)66", "*(3/2)(3/2)33"})
+  for (const char* text : {"**", "*22∞", "*236", "*362", "*244", "*333", "*2222", "*(3/2)66", "*(3/2)(3/2)33"})
     CHECK(*classify(read(text)) == Space::euclidean);
   for (const char* text :
        {"*237", "*245", "*334", "*2223", "*22222", "*(1000000)(1000000)(1000000)", "*(3/2)(12)(12)", "*(2.5)(2.5)(2.5)(2.5)"})
@@ -69,6 +70,7 @@ TEST_CASE("the canonical form is the same for all rotations and reflections and 
   CHECK(to_text(canonical(read("*5324"))) == "*2354");
   CHECK(to_text(canonical(read("*3(3/2)2"))) == "*(3/2)23");
   CHECK(canonical(read("**")).strip);
+  CHECK(canonical(read("*2∞2")) == read("*22∞"));
   std::mt19937 random(3);
   for (int trial = 0; trial < 300; ++trial) {
     Orbifold o;

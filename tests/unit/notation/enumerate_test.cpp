@@ -117,5 +117,17 @@ TEST_CASE("bounds out of range are refused", "[notation]") {
   CHECK(code(3, 1000001) == "notation.enumerate-out-of-range");
 }
 
+TEST_CASE("the count of each space is that of its list", "[notation]") {
+  for (const auto& [corners, order] : {std::pair{1, 5}, {2, 7}, {3, 2}, {3, 4}, {3, 9}, {4, 2}, {4, 5}, {5, 3}}) {
+    CAPTURE(corners, order);
+    const Table t = table(corners, order);
+    CHECK(*count_orbifolds(corners, order, Space::spherical) == t.spherical.size());
+    CHECK(*count_orbifolds(corners, order, Space::euclidean) == t.euclidean.size());
+    CHECK(*count_orbifolds(corners, order, Space::hyperbolic) == t.hyperbolic.size());
+    CHECK(*count_orbifolds(corners, order) == t.spherical.size() + t.euclidean.size() + t.hyperbolic.size());
+  }
+  CHECK_FALSE(count_orbifolds(0, 5, Space::spherical).has_value());
+}
+
 }  // namespace
 }  // namespace orbc::notation

@@ -83,12 +83,13 @@ TEST_CASE("counts are those known from elsewhere", "[notation]") {
   for (const auto& [length, copies] : {std::pair{0, 1}, {1, 6}, {2, 21}, {3, 61}, {4, 166}})
     CHECK(copies_up_to(read("*22222"), length) == copies);
   CHECK(copies_per_length(read("**"), 4) == std::vector<Integer>{1, 2, 2, 2, 2});
+  CHECK(copies_per_length(read("*22∞"), 4) == std::vector<Integer>{1, 3, 4, 4, 4});
   CHECK(copies_per_length(read("*237"), 0) == std::vector<Integer>{1});
 }
 
 TEST_CASE("the rational function and the counts are one series", "[notation]") {
   for (const char* text :
-       {"*237", "*732", "*666", "*2223", "*22222", "*23456789(10)(11)", "*(12)(18)(30)", "*2(210)(330)", "**", "*333", "*3(30)3(30)"}) {
+       {"*237", "*732", "*666", "*2223", "*22222", "*23456789(10)(11)", "*(12)(18)(30)", "*2(210)(330)", "**", "*22∞", "*333", "*3(30)3(30)"}) {
     CAPTURE(text);
     CHECK(expanded(growth_series(read(text)).value(), 300) == copies_per_length(read(text), 300));
   }
@@ -135,6 +136,7 @@ TEST_CASE("long lists are counted as well", "[notation]") {
   CHECK(copies_per_length(read("*22222"), 1000)[1000] ==
         3 * copies_per_length(read("*22222"), 999)[999] - copies_per_length(read("*22222"), 998)[998]);
   CHECK(copies_up_to(read("**"), 1000000) == 2000001);
+  CHECK(copies_up_to(read("*22∞"), 1000000) == 4000000);
 }
 
 TEST_CASE("huge orders are counted as well", "[notation]") {

@@ -83,7 +83,7 @@ TEST_CASE("a point at given distances from two walls has these distances", "[pla
       if (a < 1e-6 || b < 1e-6) continue;
       const auto found = locate(at(scene::AtWalls{{i + 1, j + 1}, {a, b}}), room);
       CAPTURE(notation, i, j, a, b);
-      if (!found && notation == "**" && (i + j) % 2 == 0) continue;   // parallel walls
+      if (!found && (notation == "**" || notation == "*22∞") && (i + j) % 2 == 0) continue;   // parallel walls
       if (!found && notation == "*2222" && (i + j) % 2 == 0) continue;
       REQUIRE(found);
       CHECK(geometry::signed_distance(room.space, room.walls[i].line, *found) == Approx(a).margin(1e-7));

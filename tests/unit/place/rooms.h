@@ -22,7 +22,7 @@ inline room::Room make_room(const std::string& notation) {
 }
 
 inline const std::vector<std::string>& notations() {
-  static const std::vector<std::string> all = {"*",     "*22",   "*55",  "*222",   "*235",   "*22(12)", "**",   "*333", "*244",
+  static const std::vector<std::string> all = {"*",     "*22",   "*55",  "*222",   "*235",   "*22(12)", "**", "*22∞", "*333", "*244",
                                                "*2222", "*237",  "*666", "*22222", "*2323",  "*23456789(10)(11)", "*(3/2)(12)(12)"};
   return all;
 }

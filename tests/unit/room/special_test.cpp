@@ -62,6 +62,25 @@ TEST_CASE("the strip has two mirrors and two plain ends", "[room]") {
   CHECK(geometry::distance(Space::euclidean, (mirrors[0] * mirrors[1]) * Point(), Point()) == Approx(2));
 }
 
+TEST_CASE("the half strip has two parallel mirrors, one across, and one plain end", "[room]") {
+  scene::Shape shape;
+  shape.scale = 0.5;
+  shape.strip_length = 6;
+  const Room room = made({{2, 2}, true}, shape);
+  check_room(room);
+  REQUIRE(room.walls.size() == 4);
+  CHECK(room.walls[0].length == Approx(1));  // the mirror across, between the two corners of order 2
+  CHECK(room.walls[1].length == Approx(3));
+  for (const std::size_t wall : {0, 1, 3}) CHECK(room.walls[wall].reflects);
+  CHECK_FALSE(room.walls[2].reflects);
+  const std::vector<geometry::Isometry> mirrors = generators(room);
+  REQUIRE(mirrors.size() == 3);
+  // The mirror across turns back, the parallel ones move on by twice their distance.
+  CHECK(geometry::distance(Space::euclidean, (mirrors[0] * mirrors[0]) * Point(), Point()) < 1e-15);
+  CHECK(geometry::distance(Space::euclidean, mirrors[0] * Point(), Point()) == Approx(3));
+  CHECK(geometry::distance(Space::euclidean, (mirrors[1] * mirrors[2]) * Point(), Point()) == Approx(2));
+}
+
 TEST_CASE("rectangles have the wanted aspect, and their largest circle the wanted radius", "[room]") {
   for (const double aspect : {0.25, 1.0, 1.5, 8.0}) {
     scene::Shape shape;
@@ -131,6 +150,7 @@ TEST_CASE("the summary lists lengths, moduli and the translational cover", "[roo
   CHECK(summarise(made(orbifold_of({3, 2, 6}))).translational_cover == 12);
   CHECK(summarise(made(orbifold_of({2, 3, 7}))).translational_cover == 0);
   CHECK(summarise(made({{}, true})).translational_cover == 0);
+  CHECK(summarise(made({{2, 2}, true})).translational_cover == 0);
   CHECK(summarise(made(orbifold_of({2, 2, 2, 2}))).moduli_names == std::vector<std::string>{"aspect"});
   const Summary six = summarise(made(orbifold_of({2, 2, 2, 2, 2, 2})));
   CHECK(six.moduli == 3);

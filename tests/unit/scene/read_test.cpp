@@ -87,6 +87,15 @@ TEST_CASE("the sketch of the design means what it says", "[scene]") {
   CHECK(scene.folder == std::string(ORBC_SOURCE_DIR) + "/tests/scenes/good");
 }
 
+TEST_CASE("the half strip has four walls, of which three are mirrors", "[scene]") {
+  const Scene scene = good("half-strip").scene;
+  CHECK(notation::is_half_strip(scene.orbifold));
+  REQUIRE(scene.room.walls.size() == 4);
+  for (const std::size_t wall : {0, 1, 3}) CHECK(scene.room.walls[wall].mirrors.size() == 1);
+  CHECK(scene.room.walls[2].mirrors.empty());
+  CHECK(scene.room.shape.strip_length == 3);
+}
+
 TEST_CASE("the strip has four walls, of which two are mirrors", "[scene]") {
   const Scene scene = good("strip").scene;
   REQUIRE(scene.room.walls.size() == 4);
