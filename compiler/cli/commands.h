@@ -69,7 +69,7 @@ struct CompileArguments {
 struct RenderArguments {
   CompileArguments compile;
   std::string engine = "tracer";
-  int samples = 1;
+  int samples = 0;                  ///< per pixel; 0 = 4 for a picture to be looked at, 1 for other passes, which want the pixel's centre
   std::string pass = "color";       ///< tracer: what to draw
 };
 

@@ -12,6 +12,7 @@
 #include "compiler/driver/compile.h"
 #include "compiler/driver/native.h"
 #include "compiler/driver/threads.h"
+#include "compiler/driver/unlit.h"
 #include "exporters/gltf/write_gltf.h"
 #include "exporters/pov/write_pov.h"
 #include "exporters/svg/write_svg.h"
@@ -192,6 +193,8 @@ int compile(const CompileArguments& a, const Common& common) {
   print(opened->notes, common);
   if (a.plan) return write_plan(*opened, a, common);
   if (format == "svg") return write_tiling(*opened, a, common);
+  print(driver::unlit_note(*opened), common);
+  append(opened->notes, driver::unlit_note(*opened));
   const auto made = export_scene(*opened, a, format, common);
   if (!made) return print(made.error(), common), kSceneWrong;
   print(made->notes, common);

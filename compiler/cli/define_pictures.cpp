@@ -4,6 +4,15 @@
 #include "compiler/cli/define.h"
 
 namespace orbc::cli {
+namespace {
+
+void add_samples(CLI::App& command, RenderArguments& a) {
+  command.add_option("--samples", a.samples, "Samples per pixel (default: 4, or 1 for a --pass other than color)")
+      ->check(CLI::Range(1, 65536))
+      ->type_name("N");
+}
+
+}  // namespace
 
 void define_render(Program& program) {
   const auto arguments = std::make_shared<RenderArguments>();
@@ -17,7 +26,7 @@ void define_render(Program& program) {
       ->capture_default_str()
       ->check(CLI::IsMember({"povray", "blender", "tracer"}))
       ->type_name("NAME");
-  c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");
+  add_samples(*c, a);
   c->add_option("--pass", a.pass, "Tracer: what to draw; an .exr holds all of them")->capture_default_str()
       ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
   add_compile_options(*c, a.compile);
@@ -39,7 +48,7 @@ void define_trace(Program& program) {
                 "The picture: .png, .jpg, or .exr with all passes in floating point; - for PNG on standard output")
       ->required()
       ->type_name("FILE");
-  c->add_option("--samples", a.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 65536))->type_name("N");
+  add_samples(*c, a);
   c->add_option("--pass", a.pass, "What to draw; an .exr holds all of them")->capture_default_str()
       ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
   c->footer(

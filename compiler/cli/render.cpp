@@ -14,6 +14,7 @@
 #include "compiler/driver/compare.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace.h"
+#include "compiler/driver/unlit.h"
 #include "compiler/mesh/image.h"
 #include "compiler/render/path.h"
 
@@ -42,6 +43,12 @@ std::vector<std::string> drawing_command(const RenderArguments& a, const driver:
     if (common.threads > 0) command.insert(command.end(), {"--threads", std::to_string(common.threads)});
   }
   return command;
+}
+
+// Edges want several samples; the other passes are those of a pixel's first sample, and the only one lies in its middle.
+int samples_of(const RenderArguments& a) {
+  constexpr int kSmooth = 4;
+  return a.samples > 0 ? a.samples : a.engine == "tracer" && a.pass != "color" ? 1 : kSmooth;
 }
 
 render::Pass pass_of(const std::string& name) {
@@ -131,7 +138,9 @@ Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, con
   return drawn;
 }
 
-int render(const RenderArguments& a, const Common& common) {
+int render(const RenderArguments& arguments, const Common& common) {
+  RenderArguments a = arguments;
+  a.samples = samples_of(arguments);
   const bool here = a.engine == "tracer";
   const PictureFormat format = picture_format_of(a.compile.output, here, fmt::format("pictures of {} have 8 bits", a.engine));
   keep_standard_output_apart(a.compile.output, common);
@@ -140,6 +149,7 @@ int render(const RenderArguments& a, const Common& common) {
   if (!opened) return print(opened.error(), common), kSceneWrong;
   const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;
   append(opened->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *opened));
+  if (a.pass == "color") append(opened->notes, driver::unlit_note(*opened));
   print(opened->notes, common);
   return here ? render_here(*opened, a, format, common) : render_elsewhere(*opened, a, format, common);
 }

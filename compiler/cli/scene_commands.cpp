@@ -12,6 +12,7 @@
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
 #include "compiler/room/realise.h"
+#include "compiler/room/view.h"
 #include "compiler/scene/starter.h"
 
 namespace orbc::cli {
@@ -31,7 +32,8 @@ int new_scene(const NewArguments& a, const Common& common) {
   const auto room = room::realise(parsed->orbifold, {}, true);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
   const std::string notation = notation::to_text(parsed->orbifold);
-  const std::string scene = scene::starter_scene(notation, static_cast<int>(room->walls.size()), room->inradius);
+  const std::string scene = 
+      scene::starter_scene({notation, static_cast<int>(room->walls.size()), room->inradius, room::view_direction(*room)});
   if (!common.json) write_output("-", scene);
   print_result({{"orbifold", notation}, {"scene", scene}}, parsed->notes, common);
   return kDone;

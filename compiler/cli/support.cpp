@@ -24,8 +24,12 @@ namespace orbc::cli {
 
 void print(const Diagnostics& diagnostics, const Common& common) {
   std::string text;
+  const auto told = [&](const Diagnostic& d) {
+    const bool asks = d.severity == Severity::warning || !d.hint.empty();  // a note with a hint has something to do for the author
+    return d.severity == Severity::error || (asks && !common.quiet) || common.verbose;
+  };
   for (const Diagnostic& d : diagnostics)
-    if (d.severity == Severity::error || (d.severity == Severity::warning && !common.quiet) || common.verbose) text += to_text(d);
+    if (told(d)) text += to_text(d);
   std::fputs(text.c_str(), stderr);
   if (common.json && has_error(diagnostics)) write_output("-", "{\"diagnostics\": " + to_json(diagnostics) + "}\n");
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "compiler/notation/parse.h"
 #include "compiler/scene/defaults.h"
@@ -18,40 +20,61 @@ orbifold: {notation}{about}{allow}
 
 room:
   height: {height}
-  floor:   {{checker: ["#f2ebdd", slategray], cell: {cell}}}    # or {{color: tan}}, wood, {{texture: tiles.png}}
-  ceiling: {{color: "#e6ecf2"}}
+  floor:   {{checker: ["#f3e3c3", "#3d5f86"], cell: {cell}}}    # or {{color: tan}}, wood, {{texture: tiles.png}}
+  ceiling: {{color: "#f4ead6"}}
   walls:
-    all: {{mirror: {{reflectance: 0.9}}, frame: {{width: {frame}, color: goldenrod}}}}
+    all: {{mirror: {{reflectance: 0.94}}, frame: {{width: {frame}, color: "#d39a35"}}}}
     # A single wall may differ. {wall_hint}
     # 1: {{mirror: none, color: brown}}
     # 1: {{mirrors: [{{span: [{span_from}, {span_to}], height: [{mirror_from}, {mirror_to}], tint: "#ffeedd"}}]}}
 
 objects:
+  - cylinder: {{radius: {column_radius}, height: {column_height}}}
+    name: column
+    at: {{polar: {column_at}}}        # from the centre of the room; corner 1 lies at 0deg
+    material: {{marble: ["#f1e8da", "#8a7a6a"], cell: {marble_cell}}}    # or wood, granite, gold, glass, mirror, …
   - torus_knot: {{p: 2, q: 3, radius: {knot_radius}, tube: {knot_tube}}}
-    name: knot
-    at: {{polar: [{knot_at}, 100deg]}}        # from the centre of the room; corner 1 lies at 0deg
+    name: knot                          # every other image of it is left-handed
+    at: {{polar: {column_at}, z: {column_height}}}
     turn: 20deg
     material: {{kind: glossy, color: tomato}}
-  - sphere: {{radius: {sphere_radius}}}
-    at: {{polar: [{sphere_at}, 200deg]}}      # or {{disk: [x, y]}}, {{toward: wall 1, distance: {sphere_at}}}
-    material: marble                    # or wood, granite, glass, gold, silver, copper, chrome, mirror, …
+  - sphere: {{radius: {ball_radius}}}
+    name: ball
+    at: {{polar: {ball_at}}}          # or {{disk: [x, y]}}, {{toward: wall 1, distance: {ball_distance}}}
+    material: {{kind: glossy, color: "#3f8f8f"}}
   # - mesh: statue.obj                  # OBJ, PLY, OFF, STL, glTF or GLB, beside this file
   #   size: {mesh_size}                        # its longest horizontal extent
 
 lights:
-  - {{kind: sphere, at: {{polar: [0, 0deg], z: {lamp_z}}}, radius: {lamp_radius}, power: {power}, temperature: 4500}}
-ambient: "#3c3c40"                      # light from everywhere
+  - {{kind: sphere, at: {{polar: {lamp_at}, z: {lamp_z}}}, radius: {lamp_radius}, power: {power}, temperature: 3500}}
+ambient: "#57524a"                      # light from everywhere
+white: 4300                             # the colour of light, in kelvin, that looks white
+exposure: 1.3
+bake: {{mirrors: 1}}                      # over how many mirrors lamps shine: 2 is truer, and takes longer
 
 camera:
-  at: {{polar: [{eye_at}, 300deg], z: {eye_z}}}
-  look_at: knot                         # an object, a place, or {{azimuth: 30deg, elevation: 0deg}}
+  at: {{polar: {eye_at}, z: {eye_z}}}
+  look_at: {{polar: {goal_at}, z: {goal_z}}}    # a place, an object (look_at: knot), or {{azimuth: 30deg, elevation: 0deg}}
   fov: 80deg
   size: [800, 600]
 
-cover: {{max_bounces: {bounces}, background: "#20242a"}}    # how far the mirrors are followed, and what is seen beyond
+cover: {{max_bounces: {bounces}, background: expected}}    # how far mirrors are followed; beyond it the colour expected there
 )";
 
-std::string quoted(std::string_view text) {
+// Where things stand: `ahead` of the middle of the scene in the direction of view and to its `left`, in inradii.
+struct Spot {
+  double ahead = 0, left = 0;
+};
+constexpr Spot kEye{-0.84, 0}, kGoal{0.4, 0}, kColumn{0.12, 0.22}, kBall{0.22, -0.28}, kLamp{0.3, -0.38};
+
+// The floor of the room as the scene uses it. Large rooms are furnished on the side that the view goes to, so that the wall there is near.
+struct Stage {
+  double unit = 1;                  // what sizes are measured in: the inradius, at most 1
+  double shift = 0;                 // from the centre of the room to the middle of the scene
+  double view = 0;                  // degrees
+};
+
+std::string in_quotes(std::string_view text) {
   std::string all = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') all += '\\';
@@ -78,38 +101,59 @@ std::string shown(double value) { return fmt::format("{:.2g}", value); }
 
 // Comments behind values start in one column, wherever the values end.
 std::string aligned(const std::string& text) {
-  constexpr std::size_t kColumn = 58;
+  constexpr std::size_t kComments = 58;
   std::string all;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     std::string line = text.substr(begin, end - begin);
     const std::size_t mark = line.find("  # ", std::min(line.size(), line.find_first_not_of(' ')));
     const std::size_t code_end = mark == std::string::npos ? mark : line.find_last_not_of(' ', mark);
-    if (code_end != std::string::npos && code_end + 1 < kColumn)
-      line = line.substr(0, code_end + 1) + std::string(kColumn - code_end - 1, ' ') + line.substr(line.find('#', mark));
+    if (code_end != std::string::npos && code_end + 1 < kComments)
+      line = line.substr(0, code_end + 1) + std::string(kComments - code_end - 1, ' ') + line.substr(line.find('#', mark));
     all += line + "\n";
     begin = end + 1;
   }
   return all;
 }
 
+// A place as `[distance, direction]`. The sum of the legs is flat geometry, which in curved rooms only moves a place a little, never beyond
+// the incircle.
+std::string polar(const Stage& stage, const Spot& spot) {
+  const double x = stage.shift + stage.unit * spot.ahead, y = stage.unit * spot.left;
+  const int direction = static_cast<int>(std::lround(stage.view + std::atan2(y, x) * 180 / std::numbers::pi));
+  return fmt::format("[{}, {}deg]", shown(std::hypot(x, y)), (direction % 360 + 360) % 360);
+}
+
+Stage stage_of(const StarterRoom& room) {
+  const double inradius = room.inradius > 0 ? room.inradius : room.notation == "**" ? 1.0 : 0.5;
+  const double unit = std::min(inradius, 1.0);
+  return {unit, room.notation == "*" ? 0 : inradius - unit, room.view};
+}
+
 }  // namespace
 
-std::string starter_scene(std::string_view notation, int walls, double inradius) {
+std::string starter_scene(const StarterRoom& room) {
   using fmt::arg;
-  const double r = inradius > 0 ? std::clamp(inradius, 1e-3, 1.0) : 0.5;
-  const auto orbifold = notation::parse(notation, {{}, true});
+  constexpr double kLeastCell = 1e-4;       // that scenes may have
+  constexpr double kLeastFloorCell = 0.005;  // of the thinnest triangles, which are long, the floor may have no more than 200,000 cells
+  const Stage stage = stage_of(room);
+  const double r = stage.unit, height = 1.4 * r;
+  const auto orbifold = notation::parse(room.notation, {{}, true});
   const int bounces = orbifold ? default_max_bounces(*orbifold) : 12;
-  const bool real = notation.find_first_of("/.") != std::string_view::npos;
-  return aligned(fmt::format(fmt::runtime(kText), arg("notation", quoted(notation)), arg("about", about(notation)),
-                             arg("allow", real ? "\nallow_non_orbifold: true" : ""), arg("height", shown(1.5 * r)),
-                             arg("cell", shown(0.25 * r)), arg("frame", shown(0.06 * r)), arg("wall_hint", wall_hint(notation, walls)),
-                             arg("span_from", shown(0.2 * r)), arg("span_to", shown(0.8 * r)), arg("mirror_from", shown(0.3 * r)),
-                             arg("mirror_to", shown(1.2 * r)), arg("knot_radius", shown(0.18 * r)), arg("knot_tube", shown(0.05 * r)),
-                             arg("knot_at", shown(0.25 * r)), arg("sphere_radius", shown(0.14 * r)), arg("sphere_at", shown(0.5 * r)),
-                             arg("mesh_size", shown(0.4 * r)), arg("lamp_z", shown(1.3 * r)), arg("lamp_radius", shown(0.07 * r)),
-                             arg("power", shown(20 * r * r)), arg("eye_at", shown(0.62 * r)), arg("eye_z", shown(0.7 * r)),
-                             arg("bounces", bounces)));
+  const bool real = room.notation.find_first_of("/.") != std::string::npos;
+  return aligned(fmt::format(
+      fmt::runtime(kText), arg("notation", in_quotes(room.notation)), arg("about", about(room.notation)),
+      arg("allow", real ? "\nallow_non_orbifold: true" : ""), arg("height", shown(height)),
+      arg("cell", shown(std::max(0.3 * r, kLeastFloorCell))), arg("frame", shown(0.05 * r)),
+      arg("wall_hint", wall_hint(room.notation, room.walls)), arg("span_from", shown(0.2 * r)), arg("span_to", shown(0.8 * r)),
+      arg("mirror_from", shown(0.3 * r)), arg("mirror_to", shown(1.2 * r)), arg("column_radius", shown(0.1 * r)),
+      arg("column_height", shown(0.36 * r)),
+      arg("column_at", polar(stage, kColumn)), arg("marble_cell", shown(std::max(0.22 * r, kLeastCell))),
+      arg("knot_radius", shown(0.11 * r)), arg("knot_tube", shown(0.042 * r)), arg("ball_radius", shown(0.13 * r)),
+      arg("ball_at", polar(stage, kBall)), arg("ball_distance", shown(0.5 * r)), arg("mesh_size", shown(0.4 * r)),
+      arg("lamp_at", polar(stage, kLamp)), arg("lamp_z", shown(0.78 * height)), arg("lamp_radius", shown(0.06 * r)),
+      arg("power", shown(18 * r * r)), arg("eye_at", polar(stage, kEye)), arg("eye_z", shown(0.44 * height)),
+      arg("goal_at", polar(stage, kGoal)), arg("goal_z", shown(0.37 * height)), arg("bounces", bounces)));
 }
 
 }  // namespace orbc::scene

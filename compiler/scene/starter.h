@@ -1,13 +1,19 @@
 #pragma once
 #include <string>
-#include <string_view>
 
 namespace orbc::scene {
 
+/// What the starter scene must know of a room.
+struct StarterRoom {
+  std::string notation;             ///< of an orbifold that has a room
+  int walls = 1;
+  double inradius = 0;              ///< 0 = unknown
+  double view = 0;                  ///< direction, in degrees from corner 1, in which the picture looks (room::view_direction)
+};
+
 /// The commented scene that `orbc new` prints: a furnished room to start from, which teaches the format.
-/// In:    a notation that has a room, its number of walls, and the inradius of the room (0 = unknown): all sizes and distances follow from
-///        it, so that everything stands within 0.75 inradii of the centre.
-/// Makes: a YAML text that `read_scene` takes without a word.
-[[nodiscard]] std::string starter_scene(std::string_view notation, int walls, double inradius);
+/// Makes: a YAML text that `read_scene` takes without a word. All sizes and distances follow from the inradius: everything, the eye
+///        included, stands within 0.9 inradii of the centre. The eye is at the height of a standing person and looks at the mirrors.
+[[nodiscard]] std::string starter_scene(const StarterRoom& room);
 
 }  // namespace orbc::scene

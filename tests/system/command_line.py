@@ -11,10 +11,10 @@ import sys
 import time
 import zlib
 
-from helpers import BIN, ROOT, check, finish, folder, run
+from helpers import BIN, ROOT, check, finish, folder, picture, run
 
 ORBC = BIN / 'orbc'
-OCTANT = ROOT / 'examples/octant/scene.yaml'
+OCTANT = ROOT / 'tests/scenes/flat/octant.yaml'
 
 
 def orbc(*words, **options):
@@ -95,11 +95,18 @@ with folder() as name:
     check(len(json.loads(orbc('enumerate', '--corners', '4', '--max-order', '3', '--json').stdout)) > 3, 'enumerate --json')
 
     # new, check
-    for notation in ('*', '**', '*22∞', '{4,3}', 'p6m', '*22', '*33', '*222', '*235', '*333', '*2222', '*2323', '*22222', '*237', '*23456789(10)(11)'):
+    for notation in ('*', '**', '*22∞', '{4,3}', 'p6m', '*22', '*33', '*222', '*235', '*333', '*2222', '*2323', '*22222', '*237', '*244', '*236', '*22(10)', '*23456789(10)(11)', '*' + 20 * '2',
+                     '*' + 150 * '2', '*22(120)', '*22(100000)', '*(100000)(100000)', '*(1000)(1000)(1000)'):
         scene = where / 'new.yaml'
         scene.write_bytes(orbc('new', notation).stdout)
         done = orbc('check', scene, '--json')
         check(done.returncode == 0 and json.loads(done.stdout)['ok'], f'new {notation} makes a scene that is all right {text(done)[:200] if done.returncode else ""}')
+        if len(notation) < 12:
+            done = orbc('render', scene, '-o', where / 'new.png', '--size', '40x30', '--samples', '1', '--max-bounces', '3')
+            pixels = picture(where / 'new.png')
+            upper, lower = pixels[:15].mean(), pixels[15:].mean()
+            check(done.returncode == 0 and b'note' not in done.stderr and pixels.std() > 20 and 50 < upper < 220 and 50 < lower < 220,
+                  f'and it is well lit above and below: {upper:.0f}, {lower:.0f}, deviation {pixels.std():.0f}')
     done = orbc('check', '-', input=b'orbc: 1\norbifold: "*2222"\nrom: {}\n')
     check(done.returncode == 1 and b'<stdin>:3:1' in done.stderr and b'room' in done.stderr, 'check reads a pipe and points at the mistake')
     bad = where / 'bad.yaml'
@@ -145,6 +152,19 @@ with folder() as name:
         done = orbc(*command)
         check(done.returncode == 0 and b'warning[scene.no-effect]' in done.stderr, f'{command[0]} prints warnings')
         check(b'warning' not in orbc(*command, '--quiet').stderr, f'{command[0]} --quiet does not')
+
+    # a scene without lights says why it is flat, once, with a line that lights it
+    bad.write_text('orbc: 1\norbifold: "*2222"\n')
+    for command in (['compile', bad, '-o', where / 'flat.glb', '--max-bounces', '1'], ['trace', bad, '-o', where / 'flat.png', '--size', '8x6'], ['render', bad, '-o', where / 'flat.png', '--size', '8x6']):
+        done = orbc(*command)
+        told = done.stderr.decode()
+        check(done.returncode == 0 and told.count('note[driver.no-lights]') == 1, f'{command[0]} says why a scene without lights looks flat')
+        check(b'note' not in orbc(*command, '--quiet').stderr, f'{command[0]} --quiet does not')
+    bad.write_text(bad.read_text() + told[told.index('lights: ['):].splitlines()[0] + '\n')
+    done = orbc('trace', bad, '-o', where / 'lit.png', '--size', '8x6')
+    check(done.returncode == 0 and b'note' not in done.stderr, f'and with the line that it offers the scene is lit: {text(done)}')
+    check(b'4 samples a pixel' in done.stderr and b'1 samples a pixel' in orbc('trace', bad, '-o', where / 'depth.png', '--size', '8x6', '--pass', 'depth').stderr,
+          'pictures take four samples a pixel, other passes one')
 
     # machine errors are 3 and leave nothing behind
     check(orbc('compile', OCTANT, '-o', where / 'no/such/folder.glb').returncode == 3, 'no such folder')

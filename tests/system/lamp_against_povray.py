@@ -49,7 +49,7 @@ for notation in ("*2222", "*333"):
         (where / "room.yaml").write_text(SCENE.format(notation=notation))
         done(BIN / "mirror_room", where / "room.yaml", where / "povray.pov")
         done(SCRIPTS / "povray-pipe", where / "povray.pov", "-o", where / "povray.png")
-        done(BIN / "orbc", "trace", "--quiet", where / "room.yaml", "-o", where / "traced.png")
+        done(BIN / "orbc", "trace", "--quiet", "--samples", "1", where / "room.yaml", "-o", where / "traced.png")
         povray, traced = picture(where / "povray.png"), picture(where / "traced.png")
         difference = np.abs(povray - traced).max(axis=2)
         if keep:

@@ -82,7 +82,7 @@ with folder() as where:
     if shutil.which('blender'):  # units: a room without mirrors under one lamp
         path = scene(where, mirror='none')
         path.write_text(path.read_text().replace('#303338', 'black'))
-        done(BIN / 'orbc', 'trace', '--quiet', path, '-o', pathlib.Path(where) / 'traced.png')
+        done(BIN / 'orbc', 'trace', '--quiet', '--samples', '1', path, '-o', pathlib.Path(where) / 'traced.png')
         done(BIN / 'orbc', 'render', '--quiet', path, '--engine', 'blender', '--samples', '16', '-o', pathlib.Path(where) / 'blender.png')
         traced, drawn = picture(pathlib.Path(where) / 'traced.png'), picture(pathlib.Path(where) / 'blender.png')
         if keep:

@@ -31,7 +31,7 @@ def closed(scene):
         copy = f'{where}/scene.yaml'
         with open(copy, 'w') as file:
             file.write(text)
-        done = run([BIN / 'orbc', 'render', '--quiet', '--engine', 'povray', '--projection', 'panorama', '--size', '1200x600', copy, '-o', f'{where}/out.png'])
+        done = run([BIN / 'orbc', 'render', '--quiet', '--engine', 'povray', '--samples', '1', '--projection', 'panorama', '--size', '1200x600', copy, '-o', f'{where}/out.png'])
         if done.returncode:
             print(done.stderr.decode())
             return -1

@@ -16,14 +16,14 @@ namespace {
 
 const char* const kFramed[] = {"octant", "triangle", "pentagon"};
 
-/// All rooms of the system tests, and some examples.
+/// All rooms of the system tests, and some that are compared in flat colours.
 std::vector<std::string> rooms(bool framed) {
   std::vector<std::string> paths;
   for (const auto& entry : std::filesystem::directory_iterator(ORBC_SOURCE_DIR "/tests/scenes/verify"))
     if (entry.path().extension() == ".yaml") paths.push_back(entry.path());
-  const auto example = [](const char* name) { return std::string(ORBC_SOURCE_DIR "/examples/") + name + "/scene.yaml"; };
-  paths.push_back(example("strip"));
-  if (framed) std::transform(std::begin(kFramed), std::end(kFramed), std::back_inserter(paths), example);
+  const auto flat = [](const char* name) { return std::string(ORBC_SOURCE_DIR "/tests/scenes/flat/") + name + ".yaml"; };
+  paths.push_back(flat("strip"));
+  if (framed) std::transform(std::begin(kFramed), std::end(kFramed), std::back_inserter(paths), flat);
   std::sort(paths.begin(), paths.end());
   return paths;
 }

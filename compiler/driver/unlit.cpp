@@ -1,0 +1,67 @@
+#include "compiler/driver/unlit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "compiler/light/lamp.h"
+
+namespace orbc::driver {
+namespace {
+
+// How far it is from the middle of the room to its walls, about. The strip has no inscribed circle: its mirrors lie `scale` away.
+double reach(const Opened& opened) {
+  const room::Room& room = opened.room->room;
+  const double wide = room.inradius > 0 ? room.inradius : room.orbifold.strip ? opened.scene.room.shape.scale : room.circumradius / 2;
+  return std::min(wide, 1.5 * opened.scene.room.height);
+}
+
+// Values as the hint writes them: to two digits.
+double rounded(double value) {
+  if (value <= 0) return 0;
+  const double scale = std::pow(10.0, 1 - std::floor(std::log10(value)));
+  return std::round(value * scale) / scale;
+}
+
+bool hangs_freely(const Opened& opened, const scene::Lamp& lamp) {
+  scene::Scene lit;
+  lit.orbifold = opened.scene.orbifold, lit.room = opened.scene.room, lit.objects = opened.scene.objects, lit.lamps = {lamp};
+  const auto hung = light::hang_lamps(lit, opened.room->room);
+  return hung.has_value() && hung->warnings.empty() && light::lamps_inside_objects(lit, *hung, *opened.room).empty();
+}
+
+// The first free place: the middle below the ceiling, else aside or lower. Nothing when the room is crammed.
+std::optional<scene::Lamp> free_lamp(const Opened& opened) {
+  const double height = opened.scene.room.height, near = reach(opened);
+  scene::Lamp lamp;
+  lamp.radius = rounded(std::min(0.06 * near, 0.08 * height));
+  for (const double aside : {0.0, 0.3, 0.6})
+    for (const double turn : {0.0, 90.0, 180.0, 270.0})
+      for (const double part : {0.8, 0.65, 0.5}) {
+        const double z = rounded(part * height);
+        lamp.place.floor = scene::AtPolar{rounded(aside * near), Angle::from_degrees(turn)};
+        lamp.place.z = z;
+        // Φ/(4πz²) on the floor below, and the lamp's images add as much again or more the nearer the mirrors are: nearly white.
+        lamp.power = rounded(14 * z * near / opened.scene.exposure);
+        if (hangs_freely(opened, lamp)) return lamp;
+      }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Diagnostics unlit_note(const Opened& opened) {
+  if (!opened.scene.lamps.empty() || opened.scene.integrator == scene::Integrator::path) return {};
+  std::string hint = "add `lights:`";
+  if (const auto lamp = free_lamp(opened)) {
+    const auto& at = std::get<scene::AtPolar>(lamp->place.floor);
+    hint = fmt::format("for light and shadow add the line   lights: [{{at: {{polar: [{}, {:.0f}deg], z: {}}}, radius: {}, power: {}}}]",
+                       at.r, at.angle.degrees(), *lamp->place.z, lamp->radius, lamp->power);
+  }
+  return {make_note("driver.no-lights", "the scene has no lights: it is shown in its plain colours, which looks flat", hint,
+                    opened.scene.orbifold_span)};
+}
+
+}  // namespace orbc::driver

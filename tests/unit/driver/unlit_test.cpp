@@ -1,0 +1,85 @@
+// Scenes without lights look flat: a note says why, and the line it offers works.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "compiler/driver/trace.h"
+#include "compiler/driver/unlit.h"
+
+using namespace orbc;
+
+namespace {
+
+Result<driver::Opened> opened(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / ("orbc-unlit-" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(path) << text;
+  auto done = driver::open_scene(path.string());
+  std::filesystem::remove(path);
+  return done;
+}
+
+std::string scene_of(const std::string& notation, double height, const std::string& more = "") {
+  return "orbc: 1\norbifold: \"" + notation + "\"\nroom: {height: " + std::to_string(height) + "}\ncamera: {size: [16, 12]}\n" + more;
+}
+
+/// The line of the hint.
+std::string offered(const Diagnostics& notes) {
+  REQUIRE(notes.size() == 1);
+  const std::size_t at = notes[0].hint.find("lights: [");
+  INFO(notes[0].hint);
+  REQUIRE(at != std::string::npos);
+  return notes[0].hint.substr(at) + "\n";
+}
+
+double mean(const render::Film& film) {
+  double sum = 0;
+  for (const scene::Color& color : film.color) sum += (color.r + color.g + color.b) / 3;
+  return sum / static_cast<double>(film.color.size());
+}
+
+}  // namespace
+
+TEST_CASE("a scene without lights gets a note with a line that lights it well, in rooms of every kind", "[driver]") {
+  const std::string knot = "objects:\n  - torus: {radius: 0.02, tube: 0.004}\n";
+  const std::string full =
+      "objects:\n  - {cylinder: {radius: 0.2, height: 0.95}, at: centre}\ncamera: {at: {polar: [0.4, 10deg]}, size: [16, 12]}\n";
+  for (const auto& [notation, height, more] : {std::tuple{"*", 0.8, knot}, {"**", 1.0, knot}, {"*22", 0.7, knot}, {"*222", 0.9, knot},
+                                               {"*235", 0.2, knot}, {"*22(30)", 0.05, std::string()}, {"*333", 1.4, knot},
+                                               {"*2222", 0.3, knot}, {"*2222", 8.0, knot}, {"*237", 0.15, knot}, {"*22222", 0.9, knot},
+                                               {"*23456789(10)(11)", 1.6, knot}, {"*(100)(100)", 0.02, std::string()}}) {
+    const auto flat = opened(scene_of(notation, height, more));
+    if (!flat) FAIL(to_text(flat.error()));
+    const Diagnostics notes = driver::unlit_note(*flat);
+    const std::string line = offered(notes);
+    CHECK(notes[0].severity == Severity::note);
+    CHECK(notes[0].code == "driver.no-lights");
+    CHECK(notes[0].span.line == 2);
+    const auto lit = opened(scene_of(notation, height, more + line));
+    INFO(notation << " " << line);
+    if (!lit) FAIL(to_text(lit.error()));
+    CHECK(lit->notes.empty());
+    CHECK(driver::unlit_note(*lit).empty());
+    // About as bright as its plain colours: neither night nor glare.
+    const double bright = mean(driver::trace(*lit, {}, serial_executor())), plain = mean(driver::trace(*flat, {}, serial_executor()));
+    INFO(bright << " against " << plain);
+    CHECK(bright > 0.25 * plain);
+    CHECK(bright < 2.5 * plain);
+  }
+  // An object in the middle of the room: the lamp hangs beside it.
+  std::string text = "orbc: 1\norbifold: \"*2222\"\n" + full;
+  const auto crammed = opened(text);
+  if (!crammed) FAIL(to_text(crammed.error()));
+  const auto lit = opened(text + offered(driver::unlit_note(*crammed)));
+  if (!lit) FAIL(to_text(lit.error()));
+  CHECK(lit->scene.lamps.size() == 1);
+}
+
+TEST_CASE("scenes with lamps, and those whose surfaces pass light on, get no note on light", "[driver]") {
+  for (const char* more : {"lights: [{at: centre}]\n", "integrator: path\n"}) {
+    const auto lit = opened(scene_of("*2222", 1, more));
+    if (!lit) FAIL(to_text(lit.error()));
+    CHECK(driver::unlit_note(*lit).empty());
+  }
+}
