@@ -26,6 +26,15 @@ function(orbc_unity target)
 endfunction()
 set_source_files_properties(compiler/trace/bvh_traverse.cpp compiler/bend/log_map_simd.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
+# orbc_embed(orbc_cli scene_schema schema/orbc-scene.schema.json): the file becomes a function of the target that returns its bytes.
+function(orbc_embed target name file)
+  set(output ${CMAKE_BINARY_DIR}/embedded/${name}.cpp)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DFILE=${CMAKE_SOURCE_DIR}/${file} -DOUTPUT=${output} -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+    DEPENDS ${CMAKE_SOURCE_DIR}/${file} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
+  target_sources(${target} PRIVATE ${output})
+endfunction()
+
 # orbc_room(bend USES geometry place cover LIBRARIES hwy::hwy): the folder compiler/bend becomes the target orbc::bend.
 # FOLDER names another place (exporters/pov). Every .cpp in the folder belongs to the room. INTERNAL rooms are not installed for others.
 function(orbc_room name)

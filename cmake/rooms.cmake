@@ -42,6 +42,8 @@ foreach(exporter pov gltf svg)
   list(APPEND ORBC_EXPORTERS ${exporter})
 endforeach()
 orbc_room(cli INTERNAL USES driver ${ORBC_EXPORTERS} LIBRARIES CLI11::CLI11)
+orbc_embed(orbc_cli scene_schema schema/orbc-scene.schema.json)
+orbc_embed(orbc_cli diagnostics_table schema/diagnostics.md)
 # What belongs to the program is found from the program's own place, wherever that is: the build folder is laid out like an installation.
 file(RELATIVE_PATH ORBC_DATA_FROM_PROGRAM ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/orbc)
 target_compile_definitions(orbc_cli PRIVATE ORBC_VERSION="${PROJECT_VERSION}" ORBC_DATA_FROM_PROGRAM="${ORBC_DATA_FROM_PROGRAM}")

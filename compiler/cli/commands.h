@@ -34,11 +34,13 @@ struct NewArguments {
 };
 struct CheckArguments {
   std::vector<std::string> scenes;
+  std::vector<std::string> set;     ///< KEY=VALUE
 };
 
 /// What changes a scene from the command line: shared by compile, render, trace and verify.
 struct SceneArguments {
   std::string scene;
+  std::vector<std::string> set;     ///< KEY=VALUE: any key of the scene
   std::string size;                 ///< "800x600"; empty = the scene's
   std::optional<int> max_bounces;
   std::string projection;           ///< empty = the scene's
@@ -83,6 +85,9 @@ struct VerifyArguments {
   std::string difference;           ///< a picture of the differences
   std::string keep;                 ///< stem for both pictures
 };
+struct ExplainArguments {
+  std::string code;                 ///< empty = all
+};
 
 /// Each command returns the exit code: 0 done, 1 the scene is wrong, 2 usage, 3 the machine.
 int info(const InfoArguments& arguments, const Common& common);
@@ -92,6 +97,8 @@ int check(const CheckArguments& arguments, const Common& common);
 int compile(const CompileArguments& arguments, const Common& common);
 int render(const RenderArguments& arguments, const Common& common);
 int verify(const VerifyArguments& arguments, const Common& common);
+int explain(const ExplainArguments& arguments, const Common& common);
+int schema(const Common& common);
 
 /// Parses the command line and runs the command.
 int run(int argc, char** argv);

@@ -16,6 +16,8 @@ namespace orbc::cli {
 struct Command {
   CLI::App* options = nullptr;      ///< owned by the program's CLI::App
   std::function<int(const Common&)> run;
+  /// What to say of more words than the command takes, such as a pattern that the shell has expanded; "" = nothing of its own
+  std::function<std::string(const std::vector<std::string>& words)> extra_words{};
 };
 
 /// The program as the command line sees it. --help, the man page and the completions come from `app`.
@@ -36,6 +38,8 @@ void define_compile(Program& program);
 void define_render(Program& program);
 void define_trace(Program& program);
 void define_verify(Program& program);
+void define_explain(Program& program);
+void define_schema(Program& program);
 void define_completion(Program& program);
 void define_man(Program& program);
 
@@ -43,6 +47,8 @@ void define_man(Program& program);
 
 /// --quiet, --verbose, --json, --threads.
 void add_common(CLI::App& command, Common& common);
+/// --set: any key of the scene.
+void add_set(CLI::App& command, std::vector<std::string>& set);
 /// The scene, and what is said instead of it.
 void add_scene(CLI::App& command, SceneArguments& scene);
 void add_quality(CLI::App& command, SceneArguments& scene, const std::string& help);

@@ -14,8 +14,19 @@ void add_common(CLI::App& command, Common& common) {
       ->type_name("N");
 }
 
+void add_set(CLI::App& command, std::vector<std::string>& set) {
+  command
+      .add_option("--set", set,
+                  "Say any key of the scene by its path, as often as wanted: camera.fov=60deg, 'objects.ball.at.polar=[0.2,30deg]', "
+                  "room.walls.2.color=brown, lights.1.power=9; objects go by name or number; nothing behind = removes the key")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
 void add_scene(CLI::App& command, SceneArguments& scene) {
   command.add_option("scene", scene.scene, "The scene file (YAML), or - for standard input")->required()->type_name("SCENE");
+  add_set(command, scene.set);
   command.add_option("--size", scene.size, "Picture size instead of the scene's")->type_name("WxH");
   command.add_option("--max-bounces", scene.max_bounces, "Mirrors a ray may meet, instead of the scene's")
       ->check(CLI::Range(0, 1000))

@@ -18,7 +18,8 @@ void define_check(Program& program) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* c = program.app.add_subcommand("check", "Check scenes and say everything that is wrong with them");
   c->add_option("scenes", arguments->scenes, "Scene files, or - for standard input")->required()->type_name("SCENE");
-  c->footer("Examples:\n  orbc check s.yaml\n  orbc check examples/*/scene.yaml --json");
+  add_set(*c, arguments->set);
+  c->footer("Examples:\n  orbc check s.yaml\n  orbc check examples/*/scene.yaml --json\n  orbc check s.yaml --set camera.fov=60deg");
   add_common(*c, program.common);
   program.commands.push_back({c, [arguments](const Common& common) { return check(*arguments, common); }});
 }

@@ -1,132 +1,198 @@
+// The man page. What commands take comes from their definitions; what holds for all of them stands here.
 #include "compiler/cli/manual.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
+#include "compiler/cli/accepts.h"
+
 namespace orbc::cli {
 namespace {
 
-std::string roff(std::string text) {
+constexpr const char* kExitStatus = R"(.SH EXIT STATUS
+.TP
+.B 0
+Done. Of
+.BR verify :
+the pictures agree.
+.TP
+.B 1
+The scene is wrong, or cannot be had within the limits given. Of
+.BR verify :
+the pictures differ.
+.TP
+.B 2
+The command line is wrong.
+.TP
+.B 3
+The machine: disk, memory, or a renderer that is missing or fails.
+.TP
+.B 130
+Stopped by Ctrl\-C; nothing was written.
+)";
+
+constexpr const char* kFiles = R"(.SH FILES
+.TP
+.I scene.yaml
+A scene: YAML or JSON.
+.B orbc new
+writes one,
+.B orbc schema
+prints which keys there are.
+Meshes and pictures are looked for relative to the scene file; of a scene on standard input, relative to the working directory.
+.TP
+.I PREFIX/share/orbc/orbc\-scene.schema.json
+The schema, for editors.
+.TP
+.I PREFIX/share/orbc/povray\-pipe\fR, \fIPREFIX/share/orbc/render_blender.py
+Scripts that draw exports with POV\-Ray and Blender.
+.SH ENVIRONMENT
+.TP
+.B TMPDIR
+Where
+.BR render " and " verify
+keep what they hand to a renderer; removed afterwards. Default: /tmp.
+.TP
+.B PATH
+Where
+.B povray
+and
+.B blender
+are looked for.
+.TP
+.B TERM
+.I dumb
+shows no progress bar. Neither does standard error that is no terminal.
+)";
+
+constexpr const char* kExamples = R"(.SH EXAMPLES
+A scene, what is wrong with it, a picture, a smoother and larger one:
+.PP
+.nf
+.RS
+orbc new \(aq*2323\(aq > s.yaml
+orbc check s.yaml
+orbc render s.yaml \-o s.png
+orbc render s.yaml \-o s.png \-\-samples 16 \-\-set \(aqcamera.size=[1600, 1200]\(aq
+.RE
+.fi
+.PP
+The same room from another place, and in another orbifold, without touching the file:
+.PP
+.nf
+.RS
+orbc render s.yaml \-o t.png \-\-set \(aqcamera.at={polar: [0.2, 90deg], z: 0.4}\(aq
+orbc render s.yaml \-o u.png \-\-set \(aqorbifold=*22222\(aq \-\-set cover.max_bounces=4
+.RE
+.fi
+.PP
+For Blender, for POV\-Ray through a pipe, and as a drawing of the tiling:
+.PP
+.nf
+.RS
+orbc compile s.yaml \-o s.glb
+orbc compile s.yaml \-f pov \-o \- | povray\-pipe \-o s.png
+orbc compile s.yaml \-o s.svg \-\-model klein
+.RE
+.fi
+.PP
+What a diagnostic means:
+.PP
+.nf
+.RS
+orbc explain scene.no\-effect
+.RE
+.fi
+)";
+
+// Text as roff shows it: dashes that can be copied, straight quotes, no line that begins with a request.
+std::string roff(const std::string& text) {
   std::string out;
   bool line_start = true;
   for (const char c : text) {
     if (c == '\\') out += "\\e";
     else if (c == '-') out += "\\-";
-    else if (line_start && (c == '.' || c == '\'')) out += std::string("\\&") + c;
+    else if (c == '\'') out += "\\(aq";
+    else if (c == '`') out += "\\(ga";
+    else if (c == '^') out += "\\(ha";
+    else if (c == '~') out += "\\(ti";
+    else if (line_start && c == '.') out += "\\&.";
     else out += c;
     line_start = c == '\n';
   }
   return out;
 }
 
-// Options of a command without --help; positionals have no name beginning with '-'.
-std::vector<const CLI::Option*> options_of(const CLI::App& app) {
-  std::vector<const CLI::Option*> options;
-  for (const CLI::Option* option : app.get_options())
-    if (!option->get_group().empty()) options.push_back(option);
-  return options;
-}
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  std::vector<const CLI::App*> commands;
-  for (const CLI::App* command : app.get_subcommands({}))
-    if (!command->get_group().empty()) commands.push_back(command);
-  return commands;
+// "-o, --output FILE" with the names bold and what stands behind them in italics.
+std::string heading(const CLI::Option& option) {
+  const std::string names = fmt::format("\\fB{}\\fR", roff(names_of(option)));
+  const Accepts taken = accepts(option);
+  if (taken.type.empty()) return names;
+  if (option.get_positional()) return fmt::format("\\fI{}\\fR", roff(taken.type));
+  return fmt::format("{} \\fI{}\\fR", names, roff(taken.choices.empty() ? taken.type : placeholder(taken)));
 }
 
 std::string option_entry(const CLI::Option& option) {
-  std::string text = ".TP\n.B " + roff(option.get_name(true, true)) + "\n" + roff(option.get_description());
-  if (!option.get_default_str().empty()) text += roff(fmt::format(" (default: {})", option.get_default_str()));
-  return text + "\n";
+  std::string text = option.get_description();
+  if (!text.empty() && text.back() != '.') text += '.';
+  const Accepts taken = accepts(option);
+  if (taken.bounds) text += fmt::format(" From {} to {}.", taken.bounds->least, taken.bounds->most);
+  if (option.get_required()) text += " Required.";
+  if (!option.get_default_str().empty()) text += fmt::format(" Default: {}.", option.get_default_str());
+  return fmt::format(".TP\n{}\n{}\n", heading(option), roff(text));
 }
 
-std::vector<std::string> flags(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : options_of(app))
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
-}
-
-std::string bash(const CLI::App& app) {
-  std::string commands, cases;
-  for (const CLI::App* command : commands_of(app)) {
-    commands += command->get_name() + " ";
-    cases += fmt::format("    {}) words=\"{}\";;\n", command->get_name(), fmt::join(flags(*command), " "));
-  }
-  return fmt::format(
-      "_orbc() {{\n  local current=${{COMP_WORDS[COMP_CWORD]}} words=\n  if [ \"$COMP_CWORD\" -eq 1 ]; then words=\"{}\"; else\n  case "
-      "${{COMP_WORDS[1]}} in\n{}"
-      "  esac; fi\n  if [[ $current == -* || $COMP_CWORD -eq 1 ]]; then COMPREPLY=($(compgen -W \"$words {}\" -- \"$current\"))\n"
-      "  else COMPREPLY=($(compgen -f -- \"$current\")); fi\n}}\ncomplete -o filenames -F _orbc orbc\n",
-      commands, cases, fmt::join(flags(app), " "));
-}
-
-std::string zsh(const CLI::App& app) {
-  const auto quoted = [](std::string text) {
-    std::string out;
-    for (const char c : text.substr(0, text.find('\n')))
-      out += c == '\'' ? std::string("'\\''") : c == '[' || c == ']' || c == ':' ? std::string("\\") + c : std::string(1, c);
-    return out;
-  };
-  std::string commands, cases;
-  for (const CLI::App* command : commands_of(app)) {
-    commands += fmt::format(" '{}:{}'", command->get_name(), quoted(command->get_description()));
-    std::string arguments;
-    for (const CLI::Option* option : options_of(*command))
-      for (const std::string& name : option->get_lnames())
-        arguments +=
-            fmt::format(" '--{}[{}]{}'", name, quoted(option->get_description()), option->get_expected_max() > 0 ? ":value:_files" : "");
-    cases += fmt::format("    {}) _arguments{} '*:file:_files';;\n", command->get_name(), arguments);
-  }
-  return fmt::format(
-      "#compdef orbc\n_orbc() {{\n  local -a commands=({})\n  if (( CURRENT == 2 )); then _describe command commands; return; fi\n  local "
-      "command=$words[2]\n"
-      "  shift words; (( CURRENT-- ))\n  case $command in\n{}  esac\n}}\n_orbc \"$@\"\n",
-      commands, cases);
-}
-
-std::string fish(const CLI::App& app) {
-  const auto quoted = [](std::string text) {
-    text = text.substr(0, text.find('\n'));
-    std::string out;
-    for (const char c : text) out += c == '\'' ? std::string("\\'") : std::string(1, c);
-    return out;
-  };
-  std::string text;
-  for (const CLI::App* command : commands_of(app)) {
-    text += fmt::format("complete -c orbc -n __fish_use_subcommand -f -a {} -d '{}'\n", command->get_name(),
-                        quoted(command->get_description()));
-    for (const CLI::Option* option : options_of(*command))
-      for (const std::string& name : option->get_lnames())
-        text += fmt::format("complete -c orbc -n '__fish_seen_subcommand_from {}' -l {} -d '{}'{}\n", command->get_name(), name,
-                            quoted(option->get_description()), option->get_expected_max() > 0 ? " -r" : "");
-  }
+std::string synopsis(const CLI::App& command) {
+  std::string text = fmt::format(".B orbc {}\n", roff(command.get_name()));
+  for (const CLI::Option* option : options_of(command))
+    if (!option->get_positional() && option->get_required()) text += fmt::format("{}\n", heading(*option));
+  text += "[\\fIoptions\\fR]\n";
+  for (const CLI::Option* option : options_of(command))
+    if (option->get_positional()) {
+      const std::string word = fmt::format("\\fI{}\\fR{}", accepts(*option).type, option->get_items_expected_max() > 1 ? " ..." : "");
+      text += option->get_required() ? word + "\n" : fmt::format("[{}]\n", word);
+    }
   return text;
+}
+
+// The examples of a command: its footer without the heading.
+std::string examples(const CLI::App& command) {
+  std::string footer = command.get_footer();
+  const std::string title = "Examples:\n";
+  if (footer.rfind(title, 0) == 0) footer = footer.substr(title.size());
+  if (footer.empty()) return "";
+  std::string text;
+  for (std::size_t begin = 0; begin < footer.size();) {
+    const std::size_t end = std::min(footer.find('\n', begin), footer.size());
+    const std::size_t word = std::min(footer.find_first_not_of(' ', begin), end);
+    text += roff(footer.substr(word, end - word)) + "\n";
+    begin = end + 1;
+  }
+  return ".PP\n.nf\n.RS\n" + text + ".RE\n.fi\n";
 }
 
 }  // namespace
 
 std::string man_page(const CLI::App& app) {
-  std::string text = fmt::format(
-      ".TH ORBC 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\norbc \\- {}\n.SH SYNOPSIS\n.B orbc\n\\fIcommand\\fR [\\fIoptions\\fR]\n",
-      roff(app.version()), roff("compile rooms with mirrors: orbifolds to POV-Ray, Blender and SVG"));
-  text += ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH OPTIONS\n";
-  for (const CLI::Option* option : options_of(app)) text += option_entry(*option);
-  text += ".SH COMMANDS\n";
+  std::string text = fmt::format(".TH ORBC 1 \"\" \"{}\" \"User Commands\"\n.SH NAME\norbc \\- compile rooms with mirrors: orbifolds to "
+                                 "POV\\-Ray, Blender and SVG\n.SH SYNOPSIS\n", roff(app.version()));
+  bool first = true;
   for (const CLI::App* command : commands_of(app)) {
-    text += fmt::format(".SS orbc {}\n{}\n", roff(command->get_name()), roff(command->get_description()));
-    for (const CLI::Option* option : options_of(*command)) text += option_entry(*option);
-    if (const std::string footer = command->get_footer(); !footer.empty()) text += ".PP\n.nf\n" + roff(footer) + "\n.fi\n";
+    if (!first) text += ".br\n";
+    text += synopsis(*command);
+    first = false;
   }
-  text +=
-      ".SH EXIT STATUS\n.TP\n.B 0\ndone\n.TP\n.B 1\nthe scene is wrong\n.TP\n.B 2\nusage\n.TP\n.B 3\nthe machine: disk, memory, missing "
-      "renderer\n";
-  return text;
-}
-
-std::string completion(const CLI::App& app, const std::string& shell) {
-  return shell == "bash" ? bash(app) : shell == "zsh" ? zsh(app) : shell == "fish" ? fish(app) : "";
+  text += ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH COMMANDS\n";
+  for (const CLI::App* command : commands_of(app)) {
+    text += fmt::format(".SS orbc {}\n{}.\n", roff(command->get_name()), roff(command->get_description()));
+    for (const CLI::Option* option : options_of(*command))
+      if (!option->check_lname("help")) text += option_entry(*option);
+    text += examples(*command);
+  }
+  text += ".SH OPTIONS\nThese stand before a command.\n";
+  for (const CLI::Option* option : options_of(app)) text += option_entry(*option);
+  return text + kExitStatus + kFiles + kExamples;
 }
 
 }  // namespace orbc::cli

@@ -5,13 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
 #include <new>
 #include <string>
 #include <vector>
 
-#include "compiler/base/diagnostic.h"
 #include "compiler/base/progress.h"
+#include "compiler/cli/accepts.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/define.h"
 #include "compiler/cli/expanded_star.h"
@@ -19,6 +18,7 @@
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
+#include "compiler/cli/usage.h"
 
 namespace orbc::cli {
 namespace {
@@ -35,6 +35,8 @@ void define_commands(Program& program) {
   define_render(program);
   define_trace(program);
   define_verify(program);
+  define_explain(program);
+  define_schema(program);
   define_completion(program);
   define_man(program);
 }
@@ -44,19 +46,14 @@ bool asks_for_json(int argc, char** argv) {
   return std::any_of(argv, argv + argc, [](const char* word) { return std::string(word) == "--json"; });
 }
 
-/// A misspelt command, said as such: CLI11 would call it and all words after it "not expected".
-/// Makes: whether the first word was meant as a command and is none; then it has been told.
-bool told_unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return false;
-  std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) commands.push_back(command->get_name());
-  if (std::find(commands.begin(), commands.end(), argv[1]) != commands.end()) return false;
-  const std::string nearest = nearest_word(argv[1], commands);
-  if (nearest.empty())
-    fmt::print(stderr, "orbc: there is no command `{}`; the commands are {}\n", argv[1], fmt::join(commands, ", "));
-  else
-    fmt::print(stderr, "orbc: there is no command `{}`; did you mean `{}`?\n", argv[1], nearest);
-  return true;
+int run_command(const Command& command, const Common& common) {
+  try {
+    return command.run(common);
+  } catch (const UsageError& error) {
+    fmt::print(stderr, "orbc {}: {}\n", command.options->get_name(), error.what());
+    if (common.json) print_failure("cli.usage", error.what());
+    return kUsage;
+  }
 }
 
 int dispatch(int argc, char** argv) {
@@ -68,23 +65,25 @@ int dispatch(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.footer(
       "Start here:\n  orbc new '*2323' > s.yaml\n  orbc render s.yaml -o s.png --engine povray\n\norbc COMMAND --help tells more of a "
-      "command. Exit codes: 0 done, 1 the scene is wrong, 2 usage, 3 the machine.");
+      "command, orbc explain CODE of a diagnostic. Exit codes: 0 done, 1 the scene is wrong, 2 usage, 3 the machine.");
   Program program{app, {}, {}};
   define_commands(program);
+  format_help(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    if (asks_for_json(argc, argv)) print_failure("cli.usage", error.what());
-    if (told_unknown_command(app, argc, argv) || told_expanded_star(argc, argv)) return kUsage;
-    app.exit(error, std::cerr, std::cerr);
+    if (told_expanded_star(argc, argv)) return kUsage;
+    const std::string message = usage_message(program, error, {argv + 1, argv + argc});
+    fmt::print(stderr, "{}\n", message);
+    if (asks_for_json(argc, argv)) print_failure("cli.usage", message);
     return kUsage;
   }
   for (const CLI::App* command : app.get_subcommands())
     for (const CLI::Option* option : command->get_options())
       if (option->count() > 0 && !option->get_lnames().empty()) program.common.given.push_back(option->get_lnames().front());
   for (const Command& command : program.commands)
-    if (app.got_subcommand(command.options)) return command.run(program.common);
+    if (app.got_subcommand(command.options)) return run_command(command, program.common);
   write_output("-", app.help());
   return kDone;
 }
@@ -100,8 +99,6 @@ int run(int argc, char** argv) {
   };
   try {
     return dispatch(argc, argv);
-  } catch (const UsageError& error) {
-    return fail("cli.usage", error.what(), kUsage);
   } catch (const Cancelled&) {
     return fail("cli.stopped", "stopped; nothing was written", kInterrupted);
   } catch (const std::bad_alloc&) {

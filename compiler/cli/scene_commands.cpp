@@ -32,7 +32,8 @@ int new_scene(const NewArguments& a, const Common& common) {
   const auto room = room::realise(parsed->orbifold, {}, true);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
   const std::string notation = notation::to_text(parsed->orbifold);
-  const std::string scene = 
+  const std::string scene =
+      schema_line() +
       scene::starter_scene({notation, static_cast<int>(room->walls.size()), room->inradius, room::view_direction(*room)});
   if (!common.json) write_output("-", scene);
   print_result({{"orbifold", notation}, {"scene", scene}}, parsed->notes, common);
@@ -43,8 +44,10 @@ int check(const CheckArguments& a, const Common& common) {
   if (std::count(a.scenes.begin(), a.scenes.end(), "-") > 1) throw UsageError("standard input can be read once: give - once");
   int code = kDone;
   Diagnostics all;
+  scene::Overrides overrides;
+  append_set(a.set, overrides);
   for (const std::string& path : a.scenes) {
-    auto opened = driver::open_scene(path);
+    auto opened = driver::open_scene(path, overrides);
     if (opened) append(opened->notes, without_effect(common.given, {kTraced | kPov | kGltf, false, false, false, 1}, *opened));
     const Diagnostics& found = opened ? opened->notes : opened.error();
     Common plain = common;

@@ -70,25 +70,32 @@ std::uint64_t parse_bytes(const std::string& text) {
   throw UsageError("--max-memory wants a size such as 512MiB or 4GiB; got " + text);
 }
 
-driver::Overrides overrides_of(const SceneArguments& arguments) {
-  driver::Overrides overrides;
-  if (!arguments.size.empty()) overrides.size = parse_size(arguments.size);
-  overrides.max_bounces = arguments.max_bounces;
-  if (arguments.projection == "perspective") overrides.projection = scene::Projection::perspective;
-  if (arguments.projection == "panorama") overrides.projection = scene::Projection::panorama;
-  if (arguments.projection == "cylinder") overrides.projection = scene::Projection::cylinder;
-  if (arguments.integrator == "direct") overrides.integrator = scene::Integrator::direct;
-  if (arguments.integrator == "path") overrides.integrator = scene::Integrator::path;
-  if (arguments.atlas == "8") overrides.atlas = scene::AtlasDepth::eight;
-  if (arguments.atlas == "16") overrides.atlas = scene::AtlasDepth::sixteen;
-  if (arguments.atlas == "exr") overrides.atlas = scene::AtlasDepth::exr;
-  if (arguments.lights == "baked") overrides.lights = scene::LightsBy::baked;
-  if (arguments.lights == "native") overrides.lights = scene::LightsBy::native;
-  if (arguments.quality == "draft") overrides.quality = scene::BakeQuality::draft;
-  if (arguments.quality == "normal") overrides.quality = scene::BakeQuality::normal;
-  if (arguments.quality == "fine") overrides.quality = scene::BakeQuality::fine;
-  overrides.expected_background = arguments.expected_background;
+scene::Overrides overrides_of(const SceneArguments& a) {
+  scene::Overrides overrides;
+  const auto say = [&](const char* option, const char* key, const std::string& value) {
+    if (!value.empty()) overrides.push_back({fmt::format("<{}>", option), fmt::format("{}={}", key, value)});
+  };
+  if (!a.size.empty()) {
+    const std::array<int, 2> size = parse_size(a.size);
+    say("--size", "camera.size", fmt::format("[{}, {}]", size[0], size[1]));
+  }
+  if (a.max_bounces) say("--max-bounces", "cover.max_bounces", std::to_string(*a.max_bounces));
+  say("--projection", "camera.projection", a.projection);
+  say("--integrator", "integrator", a.integrator);
+  say("--atlas", "bake.atlas", a.atlas);
+  say("--lights", "bake.lights", a.lights);
+  say("--quality", "bake.quality", a.quality);
+  say("--expected-background", "cover.background", a.expected_background ? "expected" : "");
+  append_set(a.set, overrides);
   return overrides;
+}
+
+void append_set(const std::vector<std::string>& set, scene::Overrides& overrides) {
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (set[i].find('=') == std::string::npos)
+      throw UsageError(fmt::format("--set takes KEY=VALUE, such as camera.fov=60deg; got {}", set[i]));
+    overrides.push_back({fmt::format("<--set {}>", i + 1), set[i]});
+  }
 }
 
 std::string shipped_script(const std::string& name) {

@@ -33,7 +33,14 @@ void append(Diagnostics& to, const Diagnostics& more);
 [[nodiscard]] std::array<int, 2> parse_size(const std::string& text);
 /// "512MiB", "4GiB", "1e9", plain bytes. Throws UsageError.
 [[nodiscard]] std::uint64_t parse_bytes(const std::string& text);
-[[nodiscard]] driver::Overrides overrides_of(const SceneArguments& arguments);
+/// What is said instead of the scene: the options that stand for one key each, then --set, which has the last word. Throws UsageError.
+[[nodiscard]] scene::Overrides overrides_of(const SceneArguments& arguments);
+/// The texts of --set. Throws UsageError where there is no equal sign.
+void append_set(const std::vector<std::string>& set, scene::Overrides& overrides);
+
+/// The comment from which editors (yaml-language-server) know how scenes are written: it names the schema of this installation, or a file
+/// beside the scene where there is none.
+[[nodiscard]] std::string schema_line();
 
 /// A script that ships with orbc (povray-pipe, render_blender.py): beside the sources, or in share/orbc of the installation.
 [[nodiscard]] std::string shipped_script(const std::string& name);

@@ -14,34 +14,24 @@ namespace {
 
 constexpr std::size_t kLargestInput = 8 << 20;  // read_scene refuses less; this only keeps an endless pipe out of the memory
 
-Result<scene::Read> read(const std::string& path, const scene::Instead& instead) {
-  if (path != "-") return scene::load_scene(path, instead);
+Result<scene::Read> read(const std::string& path, const scene::Overrides& overrides) {
+  if (path != "-") return scene::load_scene(path, overrides);
   auto source = std::make_shared<SourceText>();
   source->name = "<stdin>";
   for (std::istreambuf_iterator<char> at(std::cin), end; at != end && source->text.size() < kLargestInput; ++at) source->text += *at;
-  return scene::read_scene(std::shared_ptr<const SourceText>(source), ".", instead);
-}
-
-void apply(const Overrides& overrides, scene::Scene& scene) {
-  if (overrides.size) scene.camera.size = *overrides.size;
-  if (overrides.max_bounces) scene.cover.max_bounces = *overrides.max_bounces;
-  if (overrides.projection) scene.camera.projection = *overrides.projection;
-  if (overrides.atlas) scene.bake.atlas = *overrides.atlas;
-  if (overrides.lights) scene.bake.lights = *overrides.lights;
-  if (overrides.quality) scene.bake.quality = *overrides.quality;
+  return scene::read_scene(std::shared_ptr<const SourceText>(source), ".", overrides);
 }
 
 void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from.begin(), from.end()); }
 
 }  // namespace
 
-Result<Opened> open_scene(const std::string& path, const Overrides& overrides) {
-  auto read_in = read(path, {overrides.integrator, overrides.projection, overrides.size});
+Result<Opened> open_scene(const std::string& path, const scene::Overrides& overrides) {
+  auto read_in = read(path, overrides);
   if (!read_in) return read_in.error();
   Opened opened;
   opened.scene = std::move(read_in->scene), opened.notes = std::move(read_in->notes);
-  apply(overrides, opened.scene);
-  opened.expected_background = overrides.expected_background || opened.scene.cover.background_expected;
+  opened.expected_background = opened.scene.cover.background_expected;
   const auto room = room::realise(opened.scene.orbifold, opened.scene.room.shape, opened.scene.allow_non_orbifold);
   if (!room) return located(room.error(), opened.scene.room.shape.span.source ? opened.scene.room.shape.span : opened.scene.span);
   auto furnished = place::furnish(opened.scene, *room);

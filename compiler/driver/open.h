@@ -1,27 +1,14 @@
 #pragma once
-#include <array>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "compiler/base/result.h"
 #include "compiler/place/eye.h"
 #include "compiler/place/placed.h"
+#include "compiler/scene/override.h"
 #include "compiler/scene/scene.h"
 
 namespace orbc::driver {
-
-/// What the command line may say instead of the scene.
-struct Overrides {
-  std::optional<std::array<int, 2>> size;
-  std::optional<int> max_bounces;
-  std::optional<scene::Projection> projection;
-  std::optional<scene::Integrator> integrator;
-  std::optional<scene::BakeQuality> quality;
-  std::optional<scene::LightsBy> lights;
-  std::optional<scene::AtlasDepth> atlas;
-  bool expected_background = false;
-};
 
 struct Prepared;
 
@@ -37,8 +24,8 @@ struct Opened {
   mutable std::shared_ptr<const Prepared> prepared;
 };
 
-/// read → realise → furnish → eye. In: a path, or "-" for standard input.
+/// read → realise → furnish → eye. In: a path, or "-" for standard input; what is said instead of the scene.
 /// Diagnostics: those of the rooms it goes through, placed in the file.
-[[nodiscard]] Result<Opened> open_scene(const std::string& path, const Overrides& overrides = {});
+[[nodiscard]] Result<Opened> open_scene(const std::string& path, const scene::Overrides& overrides = {});
 
 }  // namespace orbc::driver

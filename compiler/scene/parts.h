@@ -37,8 +37,10 @@ struct RoomFacts {
 
 [[nodiscard]] RoomSpec read_room(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] std::vector<Object> read_objects(Reader& reader, const Node& node, const RoomFacts& facts);
+/// The names that objects of a list have, whatever else is wrong with them.
+[[nodiscard]] std::vector<std::string> object_names(const Node& node);
 [[nodiscard]] std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& facts);
-[[nodiscard]] Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, const Instead& instead);
+[[nodiscard]] Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts);
 [[nodiscard]] BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator);
 /// Divides all light of a scene (lamps, ambient, what glows) by the white point that it names, so that this looks white in both roads and
 /// every output.

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "compiler/scene/check.h"
 #include "compiler/scene/defaults.h"
@@ -53,7 +54,7 @@ Node empty_map() {
 
 int level_mirrors(const RoomSpec& room) { return (room.floor.mirror ? 1 : 0) + (room.ceiling.mirror ? 1 : 0); }
 
-Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
+Scene read_root(Reader& reader, const Node& root) {
   Scene scene;
   scene.span = root.span;
   const Fields fields(reader, root, "the scene",
@@ -77,9 +78,8 @@ Scene read_root(Reader& reader, const Node& root, const Instead& instead) {
   scene.exposure = fields.number("exposure", scene.exposure, {0, 1e6, true});
   scene.integrator =
       fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
-  scene.integrator = instead.integrator.value_or(scene.integrator);
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
-  scene.camera = read_camera(reader, part("camera"), facts, instead);
+  scene.camera = read_camera(reader, part("camera"), facts);
   if (scene.orbifold_span.source) scene.cover.max_bounces = default_max_bounces(scene.orbifold, level_mirrors(scene.room));
   scene.cover = read_cover(reader, part("cover"), scene.cover);
   balance_white(fields, scene);
@@ -93,19 +93,28 @@ void add_given_keys(const Node& map, const std::string& before, std::vector<Give
   }
 }
 
-// The order of the file, so that an author can work from top to bottom; errors that have no place come first.
-void sort_by_place(Diagnostics& diagnostics) {
-  std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return std::pair(a.span.line, a.span.column) < std::pair(b.span.line, b.span.column);
-  });
+// The order of the file, so that an author can work from top to bottom, then that of the overrides; errors that have no place come first.
+void sort_by_place(Diagnostics& diagnostics, const OverrideSources& overrides) {
+  const auto place = [&](const Diagnostic& d) {
+    const auto found = std::find(overrides.begin(), overrides.end(), d.span.source);
+    return std::tuple(found == overrides.end() ? 0 : found - overrides.begin() + 1, d.span.line, d.span.column);
+  };
+  std::stable_sort(diagnostics.begin(), diagnostics.end(), [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
 }
 
-Diagnostics limited(Diagnostics diagnostics) {
+// What stands in the way of an override is in the file, where it need not be changed.
+void hint_at_removal(Diagnostics& diagnostics, const OverrideSources& overrides) {
+  for (Diagnostic& d : diagnostics)
+    if (d.code == "scene.conflict" && std::find(overrides.begin(), overrides.end(), d.span.source) != overrides.end())
+      d.hint = "say the whole map, or remove the other key first: KEY= without a value removes it";
+}
+
+Diagnostics limited(Diagnostics diagnostics, const OverrideSources& overrides) {
   if (diagnostics.size() <= kMaxReported) return diagnostics;
   const std::size_t more = diagnostics.size() - kMaxReported;
   std::stable_partition(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) { return d.severity == Severity::error; });
   diagnostics.resize(kMaxReported);
-  sort_by_place(diagnostics);
+  sort_by_place(diagnostics, overrides);
   diagnostics.push_back(make_note("scene.too-many-errors", fmt::format("{} more are not shown", more)));
   return diagnostics;
 }
@@ -120,21 +129,25 @@ std::string folder_of(const std::filesystem::path& path) {
   return device || !std::filesystem::is_regular_file(path, error) ? "." : path.parent_path().string();
 }
 
-Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Instead& instead) {
+Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& instead) {
+  const OverrideSources overrides = sources_of(instead);
   Result<Document> document = parse_document(source);
   if (!document) return document.error();
   Reader reader;
   reader.diagnostics = std::move(document->faults);
-  Read read{read_root(reader, document->root, instead), {}};
+  Diagnostics faults = apply_overrides(overrides, *document);
+  std::move(faults.begin(), faults.end(), std::back_inserter(reader.diagnostics));
+  Read read{read_root(reader, document->root), {}};
   read.scene.folder = folder;
   add_given_keys(document->root, "", read.scene.given);
   if (std::none_of(reader.diagnostics.begin(), reader.diagnostics.end(), is_error) || read.scene.orbifold_span.source) {
     Diagnostics found = check(read.scene);
     std::move(found.begin(), found.end(), std::back_inserter(reader.diagnostics));
   }
-  sort_by_place(reader.diagnostics);
-  if (has_error(reader.diagnostics)) return limited(std::move(reader.diagnostics));
-  read.notes = limited(std::move(reader.diagnostics));
+  hint_at_removal(reader.diagnostics, overrides);
+  sort_by_place(reader.diagnostics, overrides);
+  if (has_error(reader.diagnostics)) return limited(std::move(reader.diagnostics), overrides);
+  read.notes = limited(std::move(reader.diagnostics), overrides);
   return read;
 }
 
@@ -146,17 +159,17 @@ RoomFacts facts_of(const notation::Orbifold& orbifold) {
           orbifold.corners.size() == 4 && right_angles};
 }
 
-Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Instead& instead) {
+Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& overrides) {
   const std::string& text = source->text;
-  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_marked(source, folder, instead);
-  return read_marked(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder, instead);
+  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_marked(source, folder, overrides);
+  return read_marked(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder, overrides);
 }
 
-Result<Read> read_scene(const SourceText& source, const std::string& folder, const Instead& instead) {
-  return read_scene(std::make_shared<const SourceText>(source), folder, instead);
+Result<Read> read_scene(const SourceText& source, const std::string& folder, const Overrides& overrides) {
+  return read_scene(std::make_shared<const SourceText>(source), folder, overrides);
 }
 
-Result<Read> load_scene(const std::string& path, const Instead& instead) {
+Result<Read> load_scene(const std::string& path, const Overrides& overrides) {
   const auto cannot_read = [&](const std::string& why) {
     return make_error("scene.cannot-read", fmt::format("cannot read the scene {}: {}", path, why),
                       "give the path of a scene file; `orbc new '*2323'` writes one");
@@ -174,7 +187,7 @@ Result<Read> load_scene(const std::string& path, const Instead& instead) {
   if (text.size() > limit)
     return make_error("scene.too-large", fmt::format("{} has more bytes than a scene may have ({})", path, limit),
                       "put big data into mesh files");
-  return read_scene(SourceText{path, std::move(text)}, folder_of(path), instead);
+  return read_scene(SourceText{path, std::move(text)}, folder_of(path), overrides);
 }
 
 }  // namespace orbc::scene

@@ -217,6 +217,25 @@ void make_names_unique(Reader& reader, std::vector<Object>& objects) {
 
 }  // namespace
 
+std::vector<std::string> object_names(const Node& node) {
+  std::vector<Object> objects;
+  for (const Node& item : node.items) {
+    Object& object = objects.emplace_back();
+    for (const std::string& shape : shape_keys())
+      if (const Node* found = item.find(shape); found && object.name.empty())
+        object.name = shape == "mesh" ? split(found->text).stem : shape;
+    const Node* name = item.find("name");
+    if (!name || name->text.empty()) continue;
+    object.name = name->text;
+    object.name_span = name->span;
+  }
+  Reader unheard;
+  make_names_unique(unheard, objects);
+  std::vector<std::string> names;
+  for (const Object& object : objects) names.push_back(object.name);
+  return names;
+}
+
 std::vector<Object> read_objects(Reader& reader, const Node& node, const RoomFacts& facts) {
   std::vector<Object> objects;
   if (node.kind != NodeKind::list) {

@@ -111,7 +111,7 @@ std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& 
   return lamps;
 }
 
-Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, const Instead& instead) {
+Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
   Camera camera;
   camera.span = camera.place.span = node.span;
   const Fields fields(reader, node, "the camera", {"at", "look_at", "fov", "roll", "lens", "size", "projection"});
@@ -119,7 +119,6 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, con
   camera.projection = fields.choice<Projection>(
       "projection", camera.projection,
       {{"perspective", Projection::perspective}, {"panorama", Projection::panorama}, {"cylinder", Projection::cylinder}});
-  camera.projection = instead.projection.value_or(camera.projection);
   const bool perspective = camera.projection == Projection::perspective;
   if (const Node* fov = fields.find("fov")) camera.fov_span = fov->span;
   camera.fov = fields.angle("fov", camera.fov, perspective ? Range{1, 170} : Range{1, 360});
@@ -131,7 +130,6 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts, con
     fields.no_effect("lens", "only a perspective camera has one");
   }
   if (const Node* size = fields.find("size")) camera.size_span = size->span, camera.size = read_picture_size(reader, *size, camera.size);
-  camera.size = instead.size.value_or(camera.size);
   const Node* look_at = fields.find("look_at");
   if (look_at) camera.look_at = {read_look_at(reader, *look_at, facts), look_at->span};
   // From the centre one cannot look at the centre

@@ -84,9 +84,7 @@ void write(const std::string& path, const std::string& bytes) { std::ofstream(pa
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  driver::Overrides overrides;
-  overrides.max_bounces = 0;
-  const auto opened = driver::open_scene(argv[1], overrides);
+  const auto opened = driver::open_scene(argv[1], {{"max_bounces", "cover.max_bounces=0"}});
   if (!opened) return fmt::print(stderr, "{}", to_text(opened.error())), 1;
   driver::Product product;  // of a lit room only camera and background
   std::string lit;

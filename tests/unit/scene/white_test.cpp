@@ -37,17 +37,17 @@ TEST_CASE("a white point may be a colour, and what glows is divided by it", "[sc
 }
 
 TEST_CASE("a white point is of use where anything glows or surfaces pass light on, also at the command line's word", "[scene]") {
-  const auto notes = [](const std::string& more, const Instead& instead) {
-    const auto read_in = read_scene(SourceText{"white", "orbc: 1\norbifold: \"*2222\"\n" + more}, "", instead);
+  const auto notes = [](const std::string& more, const Overrides& overrides) {
+    const auto read_in = read_scene(SourceText{"white", "orbc: 1\norbifold: \"*2222\"\n" + more}, "", overrides);
     std::string codes;
     for (const Diagnostic& note : read_in->notes) codes += note.code + " ";
     return codes;
   };
   CHECK(notes("white: 3000\n", {}) == "scene.no-effect ");
-  CHECK(notes("white: 3000\n", {Integrator::path}) == "");
+  CHECK(notes("white: 3000\n", {{"path", "integrator=path"}}) == "");
   CHECK(notes("white: 3000\nobjects: [{sphere: {}, at: centre, material: {kind: emissive, color: wheat}}]\n", {}) == "");
   CHECK(notes("white: 3000\nroom: {walls: {all: {mirror: {glow: gray}}}}\n", {}) == "");
   CHECK(notes("bake: {seed: 3}\n", {}) == "scene.no-effect ");
-  CHECK(notes("bake: {seed: 3}\n", {Integrator::path}) == "");
-  CHECK(notes("integrator: path\nbake: {seed: 3}\n", {Integrator::direct}) == "scene.no-effect ");
+  CHECK(notes("bake: {seed: 3}\n", {{"path", "integrator=path"}}) == "");
+  CHECK(notes("integrator: path\nbake: {seed: 3}\n", {{"direct", "integrator=direct"}}) == "scene.no-effect ");
 }
