@@ -37,3 +37,5 @@ orbc_system_test(system_scripts scripts.py 300 fast)
 if(NOT ORBC_SANITIZE)  # packages are made of what people use
   orbc_system_test(system_package package.py 900 render)
 endif()
+orbc_system_test(system_golden_files golden_files.py 600 fast)
+orbc_system_test(system_same_bytes same_bytes.py 1800 render)

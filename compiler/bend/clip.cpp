@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::bend {
 namespace {
 
@@ -51,7 +53,7 @@ class Clipper {
     Vertex made{v, z, uv, {0, 0}, given, -1, -1};
     Ambient seen = map_.eye_from_copy * v;
     if (map_.sheet % 2 == 1) seen = -1.0 * seen;
-    const double on = kOn * std::hypot(seen.x, seen.y);
+    const double on = kOn * math::hypot(seen.x, seen.y);
     made.value[0] = cover::turn(wedge_.from, seen);
     made.value[1] = -cover::turn(wedge_.to, seen);
     for (double& value : made.value)
@@ -165,7 +167,7 @@ InWedge place_in(const Wedge& wedge, const LogMap& map, const PartNet& net, doub
   if (map.sheet % 2 == 1) seen = -1.0 * seen;
   const double first = geometry::asin_k(map.space, cover::turn(wedge.from, seen)),
                second = geometry::asin_k(map.space, -cover::turn(wedge.to, seen));
-  const double across = geometry::asin_k(map.space, margin * std::hypot(seen.x, seen.y));
+  const double across = geometry::asin_k(map.space, margin * math::hypot(seen.x, seen.y));
   const double radius = net.radius * (1 + margin + 1e-9) + across + 1e-9;
   if (radius > std::numbers::pi / 2 && map.space == Space::spherical) return InWedge::some;
   if (first < -radius || second < -radius) return InWedge::none;
@@ -179,7 +181,7 @@ std::unique_ptr<OwnPart> reaching(const Wedge& wedge, const LogMap& map, const P
   for (std::size_t i = 0; i < beyond.size(); ++i) {
     Ambient seen = map.eye_from_copy * mesh.floor[i];
     if (map.sheet % 2 == 1) seen = -1.0 * seen;
-    const double near = margin * std::hypot(seen.x, seen.y);
+    const double near = margin * math::hypot(seen.x, seen.y);
     beyond[i] = static_cast<std::uint8_t>((cover::turn(wedge.from, seen) < -near ? 1 : 0) | (-cover::turn(wedge.to, seen) < -near ? 2 : 0));
   }
   auto own = std::make_unique<OwnPart>();

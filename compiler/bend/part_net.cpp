@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/bend/tessellate.h"
 
 namespace orbc::bend {
@@ -44,7 +45,7 @@ void collect_edges(const place::PlacedMesh& mesh, PartNet& net) {
 double bound_of_eye(const CopyMap& map, const Sight& sight, const PartNet& net, double from, double to) {
   const double l2 = net.longest * net.longest, k = acceleration(map, from, to);
   const double reach = map.log.sheet > 0 ? map.log.sheet * std::numbers::pi : from;
-  const double level = std::max({0.0, net.low - sight.eye.z, sight.eye.z - net.high}), near = std::hypot(reach, level);
+  const double level = std::max({0.0, net.low - sight.eye.z, sight.eye.z - net.high}), near = math::hypot(reach, level);
   if (near < 1e-6 || k == kCannotTell) return kCannotTell;
   double off = k * l2 / 6 + l2 / 50 * net.steepest;
   if (net.along > 0) off = std::max(off, (k * l2 / 6 + l2 / 50 * (net.steepest + net.longest)) / net.along);
@@ -55,14 +56,14 @@ double bound_of_eye(const CopyMap& map, const Sight& sight, const PartNet& net, 
 
 double acceleration(const CopyMap& map, double from, double to) {
   if (map.log.space == Space::euclidean) return 0;
-  if (map.log.space == Space::hyperbolic) return std::hypot(std::min(1.0, 2 * to / 3), std::min(0.32, to / 3));
-  if (map.log.sheet == 0 && to <= std::numbers::pi / 2) return to * std::hypot(1, 0.64);
+  if (map.log.space == Space::hyperbolic) return math::hypot(std::min(1.0, 2 * to / 3), std::min(0.32, to / 3));
+  if (map.log.sheet == 0 && to <= std::numbers::pi / 2) return to * math::hypot(1, 0.64);
   const bool torn_below = map.log.sheet > 0;
   if (to > std::numbers::pi - 1e-3 || (torn_below && from < 1e-3)) return kCannotTell;
   // sin is smallest at one of the ends.
-  const double s = torn_below ? std::min(std::sin(from), std::sin(to)) : std::sin(to);
+  const double s = torn_below ? std::min(math::sin(from), math::sin(to)) : math::sin(to);
   const double largest = torn_below ? (map.log.sheet + 1) * std::numbers::pi : to;
-  return std::hypot(0.5 + largest, 1 + largest) / (s * s);
+  return math::hypot(0.5 + largest, 1 + largest) / (s * s);
 }
 
 PartNet part_net(Space space, const place::PlacedMesh& mesh, double along) {
@@ -98,14 +99,14 @@ double error_bound(const CopyMap& map, const Sight& sight, const PartNet& net) {
   if (map.log.space == Space::euclidean) return 0;
   if (net.longest > 1) return kCannotTell;
   const geometry::Ambient c = map.log.eye_from_copy * net.centre;
-  const double d = geometry::arc_k(map.log.space, c.w, std::hypot(c.x, c.y));
+  const double d = geometry::arc_k(map.log.space, c.w, math::hypot(c.x, c.y));
   const double from = std::max(0.0, d - net.radius), to = d + net.radius;
   if (map.view == View::eye) return bound_of_eye(map, sight, net, from, to);
   const double l2 = net.longest * net.longest;
   double k = 0.58;
   if (map.log.space == Space::spherical) {
     if (to > 3) return kCannotTell;
-    const double z = std::tan(to / 2);
+    const double z = math::tan(to / 2);
     k = 1.5 * z * (1 + z * z);
   }
   return (k * l2 / 6 + l2 / 50 * (net.steepest + net.longest)) / sight.tolerance;

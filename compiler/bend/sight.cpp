@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::bend {
 namespace {
 
@@ -53,7 +55,7 @@ Sight sight_of(const place::Eye& eye, const BendOptions& options) {
   sight.camera = eye;
   sight.tolerance = options.view == View::disk ? options.disk_tolerance : options.tolerance_px;
   if (options.view == View::disk) return sight;
-  const double wide = std::tan(eye.fov.radians / 2), high = wide * eye.height / eye.width;
+  const double wide = math::tan(eye.fov.radians / 2), high = wide * eye.height / eye.width;
   switch (eye.projection) {
     case scene::Projection::perspective:
       sight.pixels = eye.width / (2 * wide);
@@ -70,7 +72,7 @@ Sight sight_of(const place::Eye& eye, const BendOptions& options) {
       break;
     case scene::Projection::cylinder:
       sight.pixels = eye.width / eye.fov.radians;
-      sight.cos_border = 1 / std::hypot(1, eye.fov.radians / 2 * eye.height / eye.width);
+      sight.cos_border = 1 / math::hypot(1, eye.fov.radians / 2 * eye.height / eye.width);
       break;
   }
   return sight;
@@ -83,9 +85,9 @@ double pixels_at(const Sight& sight, const Vector3& d) {
       return sight.pixels / (c * c);
     }
     case scene::Projection::panorama:
-      return sight.pixels / std::max(std::hypot(d.x, d.y), sight.cos_border);
+      return sight.pixels / std::max(math::hypot(d.x, d.y), sight.cos_border);
     default: {
-      const double c = std::max(std::hypot(d.x, d.y), sight.cos_border);
+      const double c = std::max(math::hypot(d.x, d.y), sight.cos_border);
       return sight.pixels / (c * c);
     }
   }
@@ -103,7 +105,7 @@ Judgement judge_chord(const Sight& sight, const Vector3& a, const Vector3& b, co
     int farthest = 0;
     for (int i = 0; i < count; ++i) {
       // Far out in the chart of S² everything is large: there the tolerance grows with the distance.
-      const double scale = std::max(1.0, std::hypot(curve[i].x, curve[i].y));
+      const double scale = std::max(1.0, math::hypot(curve[i].x, curve[i].y));
       const double off = along > 0 ? std::max(segment_distance(curve[i], a, b), length(curve[i] - (a + parameter[i] * (b - a))) / along)
                                    : segment_distance(curve[i], a, b);
       if (off / scale > worst) worst = off / scale, farthest = i;
@@ -136,7 +138,7 @@ Judgement judge_centre(const Sight& sight, const std::array<Vector3, 3>& corners
   const double area = length(normal), height = area > 0 ? std::fabs(dot(off, normal)) / area : length(off);
   if (sight.view == View::disk) {
     const double wrong = along > 0 ? std::max(height, length(off) / along) : height;
-    return {wrong / std::max(1.0, std::hypot(centre.x, centre.y)) / sight.tolerance, true, 0};
+    return {wrong / std::max(1.0, math::hypot(centre.x, centre.y)) / sight.tolerance, true, 0};
   }
   const Vector3 p = centre - sight.eye;
   const double far = std::max(length(p), 1e-9);

@@ -14,6 +14,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::bend {
 namespace {
 
@@ -61,7 +63,7 @@ class Splitter {
     // Steps of the circle: its chords are judged like any other, at its own distance.
     const double share = map.view == View::disk ? radius / std::max(1.0, radius) / sight.tolerance : densest_ / sight.tolerance;
     steps_ = 8;
-    while (steps_ < 65536 && share * (1 - std::cos(std::numbers::pi / steps_)) > 0.5) steps_ *= 2;
+    while (steps_ < 65536 && share * (1 - math::cos(std::numbers::pi / steps_)) > 0.5) steps_ *= 2;
   }
 
   Tessellation run() {
@@ -98,7 +100,7 @@ class Splitter {
 
   [[nodiscard]] Axis axis_of(const Ambient& p) const {
     if (map_.log.space != Space::spherical) return Axis::none;
-    if (std::hypot(p.x, p.y) > kSingular * std::fabs(p.w)) return Axis::none;
+    if (math::hypot(p.x, p.y) > kSingular * std::fabs(p.w)) return Axis::none;
     const Axis axis = p.w < 0 ? Axis::antipode : Axis::foot;
     return circle(axis) > 0 ? axis : Axis::none;
   }
@@ -120,10 +122,10 @@ class Splitter {
   /// Where a corner lies as a neighbour of `from`: a corner on an axis is on the circle, in the direction of the neighbour.
   [[nodiscard]] Vector3 seen_with(const Corner& c, const Corner& from) const {
     if (c.axis == Axis::none) return c.at;
-    const double rho = std::hypot(from.at.x, from.at.y), phi = std::atan2(from.at.y, from.at.x);
+    const double rho = math::hypot(from.at.x, from.at.y), phi = math::atan2(from.at.y, from.at.x);
     if (rho == 0) return c.at;
     const double step = 2 * std::numbers::pi / steps_, middle = (std::floor(phi / step) + 0.5) * step;
-    const double radius = circle(c.axis) * std::cos(step / 2) / std::cos(phi - middle);
+    const double radius = circle(c.axis) * math::cos(step / 2) / math::cos(phi - middle);
     return {radius * from.at.x / rho, radius * from.at.y / rho, c.z};
   }
 
@@ -142,7 +144,7 @@ class Splitter {
     if (p.x * q.x + p.y * q.y >= 0) return -1;
     const double nw = p.x * q.y - p.y * q.x, nx = p.y * q.w - p.w * q.y, ny = p.w * q.x - p.x * q.w;
     if (std::fabs(nw) > kSingular * std::sqrt(nw * nw + nx * nx + ny * ny)) return -1;
-    const double pr = std::hypot(p.x, p.y), qr = std::hypot(q.x, q.y), t = pr / (pr + qr);
+    const double pr = math::hypot(p.x, p.y), qr = math::hypot(q.x, q.y), t = pr / (pr + qr);
     return circle((1 - t) * p.w + t * q.w < 0 ? Axis::antipode : Axis::foot) > 0 ? t : -1;
   }
 
@@ -231,7 +233,7 @@ class Splitter {
   /// else. 0 when there is no torn axis to pass.
   [[nodiscard]] double bisection(const Corner& a, const Corner& b) const {
     if (map_.log.space != Space::spherical || a.axis != Axis::none || b.axis != Axis::none) return 0;
-    const double p = std::hypot(a.seen.x, a.seen.y), q = std::hypot(b.seen.x, b.seen.y);
+    const double p = math::hypot(a.seen.x, a.seen.y), q = math::hypot(b.seen.x, b.seen.y);
     // Rounded to 8 bits, so that neighbours choose the same point although their matrices differ in the last bit.
     int exponent = 0;
     const double digits = std::frexp(std::min(p, q) / (p + q), &exponent), share = std::ldexp(std::round(digits * 256), exponent - 8);
@@ -416,7 +418,7 @@ class Splitter {
     draw(a, b, b_end);
     if (a_end == b_end) return;
     // From B' back to A' along the polygon.
-    const double from = std::atan2(corners_[b].at.y, corners_[b].at.x), to = std::atan2(corners_[a].at.y, corners_[a].at.x);
+    const double from = math::atan2(corners_[b].at.y, corners_[b].at.x), to = math::atan2(corners_[a].at.y, corners_[a].at.x);
     const double turn = std::remainder(to - from, 2 * std::numbers::pi), step = 2 * std::numbers::pi / steps_;
     std::uint32_t last = b_end;
     const double low = std::min(from, from + turn), high = std::max(from, from + turn);
@@ -425,7 +427,7 @@ class Splitter {
       const double angle = static_cast<double>(turn > 0 ? first + i : end - 1 - i) * step;
       Corner c = corners_[t[2]];
       const double radius = circle(c.axis);
-      c.at = {radius * std::cos(angle), radius * std::sin(angle), c.z};
+      c.at = {radius * math::cos(angle), radius * math::sin(angle), c.z};
       const std::uint32_t next = add(c);
       draw(a, last, next);
       last = next;

@@ -89,6 +89,12 @@ struct ExplainArguments {
   std::string code;                 ///< empty = all
 };
 
+struct DiffArguments {
+  std::string left, right;
+  double within = 0;                ///< of numbers: absolute up to 1, relative beyond
+  int pixels = 0;                   ///< of pictures, in steps of 1/255
+};
+
 /// Each command returns the exit code: 0 done, 1 the scene is wrong, 2 usage, 3 the machine.
 int info(const InfoArguments& arguments, const Common& common);
 int enumerate(const EnumerateArguments& arguments, const Common& common);
@@ -97,6 +103,8 @@ int check(const CheckArguments& arguments, const Common& common);
 int compile(const CompileArguments& arguments, const Common& common);
 int render(const RenderArguments& arguments, const Common& common);
 int verify(const VerifyArguments& arguments, const Common& common);
+/// 0 they agree, 1 they differ, 2 usage, 3 one of them cannot be read.
+int diff(const DiffArguments& arguments, const Common& common);
 int explain(const ExplainArguments& arguments, const Common& common);
 int schema(const Common& common);
 

@@ -38,6 +38,7 @@ void define_compile(Program& program);
 void define_render(Program& program);
 void define_trace(Program& program);
 void define_verify(Program& program);
+void define_diff(Program& program);
 void define_explain(Program& program);
 void define_schema(Program& program);
 void define_completion(Program& program);

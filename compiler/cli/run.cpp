@@ -35,6 +35,7 @@ void define_commands(Program& program) {
   define_render(program);
   define_trace(program);
   define_verify(program);
+  define_diff(program);
   define_explain(program);
   define_schema(program);
   define_completion(program);

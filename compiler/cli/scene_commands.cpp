@@ -25,9 +25,10 @@ int new_scene(const NewArguments& a, const Common& common) {
   if (!parsed) return print(with_star_hint(parsed.error(), a.notation), common), kSceneWrong;
   if (!common.quiet) std::fputs(to_text(parsed->notes).c_str(), stderr);
   if (!notation::is_orbifold(parsed->orbifold))
-    print({make_warning("notation.non-orbifold-room",
-                        "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",
-                        "the scene says `allow_non_orbifold: true`; corners with integers make an orbifold", options.span)},
+    print({make_warning(
+              "notation.non-orbifold-room",
+              "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",
+              "the scene says `allow_non_orbifold: true`; corners with integers make an orbifold", options.span)},
           common);
   const auto room = room::realise(parsed->orbifold, {}, true);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;

@@ -14,6 +14,7 @@
 #include <optional>
 #include <tuple>
 
+#include "compiler/base/elementary.h"
 #include "compiler/cover/automaton.h"
 #include "compiler/cover/rim.h"
 #include "compiler/cover/size.h"
@@ -56,7 +57,7 @@ bool is_orbifold(const place::PlacedRoom& room) {
 std::uint64_t bit(int wall) { return wall >= 0 && wall < 64 ? std::uint64_t{1} << wall : 0; }
 
 Bearing bearing_of(const Ambient& seen, int sheet) {
-  const double scale = (sheet % 2 == 1 ? -1 : 1) / std::hypot(seen.x, seen.y);
+  const double scale = (sheet % 2 == 1 ? -1 : 1) / math::hypot(seen.x, seen.y);
   return {seen.x * scale, seen.y * scale};
 }
 
@@ -315,7 +316,7 @@ class Unfolder {
     first.cover_from_room = root.cover_from_room;
     copies.push_back(first);
     const auto before = [](const Seen& a, const Seen& b) {
-      const double x = std::atan2(a.wedge.from.y, a.wedge.from.x), y = std::atan2(b.wedge.from.y, b.wedge.from.x);
+      const double x = math::atan2(a.wedge.from.y, a.wedge.from.x), y = math::atan2(b.wedge.from.y, b.wedge.from.x);
       return std::tie(a.bounces, a.sheet, a.word, a.crossings, x) < std::tie(b.bounces, b.sheet, b.word, b.crossings, y);
     };
     std::sort(seen_.begin(), seen_.end(), before);

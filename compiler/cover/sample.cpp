@@ -8,6 +8,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::cover {
 namespace {
 
@@ -33,14 +35,14 @@ Disk disk_of(Space space, const place::PlacedMesh& mesh) {
   return disk;
 }
 
-double angle_between(const Bearing& a, const Bearing& b) { return std::atan2(turn(a, b), a.x * b.x + a.y * b.y); }
+double angle_between(const Bearing& a, const Bearing& b) { return math::atan2(turn(a, b), a.x * b.x + a.y * b.y); }
 
 /// The share of the bearings of a disk that lie in the wedge.
 double share_in(const Wedge& wedge, Space space, const Ambient& seen, double radius) {
-  const double rho = std::hypot(seen.x, seen.y), across = geometry::sin_k(space, std::min(radius, std::numbers::pi / 2));
+  const double rho = math::hypot(seen.x, seen.y), across = geometry::sin_k(space, std::min(radius, std::numbers::pi / 2));
   if (rho <= across || rho < 1e-12) return std::min(1.0, angle_between(wedge.from, wedge.to) / std::numbers::pi);
   const Bearing middle{seen.x / rho, seen.y / rho};
-  const double half = std::asin(across / rho), from = -angle_between(wedge.from, middle), to = angle_between(middle, wedge.to);
+  const double half = math::asin(across / rho), from = -angle_between(wedge.from, middle), to = angle_between(middle, wedge.to);
   const double shared = std::min(half, to) - std::max(-half, from);
   return half > 0 ? std::clamp(shared / (2 * half), 0.0, 1.0) : 1;
 }
@@ -94,7 +96,7 @@ std::vector<Sample> sample_of(const std::vector<Copy>& copies, const Contents& c
     const auto eye_from_copy = eye_from_cover * copy.cover_from_room;
     const Ambient centre = eye_from_copy * geometry::Point();
     const Model& model = models[contents.model_of_copy.empty() ? 0 : contents.model_of_copy[i]];
-    Guess guess{geometry::arc_k(space, centre.w, std::hypot(centre.x, centre.y)), 0.02 * model.triangles + 1, i};
+    Guess guess{geometry::arc_k(space, centre.w, math::hypot(centre.x, centre.y)), 0.02 * model.triangles + 1, i};
     if (copy.sheet > 0)
       guess.distance = copy.sheet * std::numbers::pi + (copy.sheet % 2 == 1 ? std::numbers::pi - guess.distance : guess.distance);
     for (const Disk& disk : model.disks) {

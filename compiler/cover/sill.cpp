@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::cover {
 namespace {
 
@@ -27,19 +29,19 @@ bool steeper(double a, double b, bool a_first) {
 double distance_to(Space space, const Sill& sill, const Bearing& bearing) {
   const double q = sill.line.x * bearing.x + sill.line.y * bearing.y, w = -sill.line.w;
   if (space == Space::spherical) {
-    const double s = std::atan2(w < 0 ? -w : w, w < 0 ? -q : q);
+    const double s = math::atan2(w < 0 ? -w : w, w < 0 ? -q : q);
     return std::max(s + sill.sheet * std::numbers::pi, 1e-12);
   }
   if (space == Space::euclidean) return q * w > 0 ? w / q : 1e12;
   const double t = q * w > 0 ? w / q : 1;
-  return t < 1 ? std::min(std::atanh(t), kFarthest) : kFarthest;
+  return t < 1 ? std::min(math::atanh(t), kFarthest) : kFarthest;
 }
 
 std::vector<Bearing> spread(const Wedge& wedge, int count) {
-  const double angle = std::atan2(turn(wedge.from, wedge.to), wedge.from.x * wedge.to.x + wedge.from.y * wedge.to.y);
+  const double angle = math::atan2(turn(wedge.from, wedge.to), wedge.from.x * wedge.to.x + wedge.from.y * wedge.to.y);
   std::vector<Bearing> bearings{wedge.from};
   for (int i = 1; i + 1 < count; ++i) {
-    const double c = std::cos(angle * i / (count - 1)), s = std::sin(angle * i / (count - 1));
+    const double c = math::cos(angle * i / (count - 1)), s = math::sin(angle * i / (count - 1));
     bearings.push_back({wedge.from.x * c - wedge.from.y * s, wedge.from.y * c + wedge.from.x * s});
   }
   bearings.push_back(wedge.to);

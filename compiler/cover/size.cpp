@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::cover {
 
 using geometry::Space;
@@ -19,14 +21,14 @@ CopySize::CopySize(const place::PlacedRoom& room, const place::Eye& eye)
 
 double CopySize::at(double d) const {
   if (d <= radius_ || space_ == Space::spherical) return std::numeric_limits<double>::infinity();
-  const double width = 2 * std::asin(std::min(1.0, geometry::sin_k(space_, radius_) / geometry::sin_k(space_, d)));
-  const double height = std::atan((height_ - eye_z_) / (d - radius_)) + std::atan(eye_z_ / (d - radius_));
+  const double width = 2 * math::asin(std::min(1.0, geometry::sin_k(space_, radius_) / geometry::sin_k(space_, d)));
+  const double height = math::atan((height_ - eye_z_) / (d - radius_)) + math::atan(eye_z_ / (d - radius_));
   return pixels_ * std::min(width, height);
 }
 
 double CopySize::of(const geometry::Isometry& cover_from_room) const {
   const geometry::Ambient centre = eye_from_cover_ * cover_from_room * geometry::Point();
-  return at(geometry::arc_k(space_, centre.w, std::hypot(centre.x, centre.y)));
+  return at(geometry::arc_k(space_, centre.w, math::hypot(centre.x, centre.y)));
 }
 
 }  // namespace orbc::cover

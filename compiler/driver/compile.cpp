@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "compiler/base/elementary.h"
 #include "compiler/cover/beam.h"
 #include "compiler/cover/plan.h"
 #include "compiler/cover/unfold.h"

@@ -1,4 +1,5 @@
 // Nearest point of a triangle: Ericson, Real-Time Collision Detection (2005), 5.1.5, by the regions of its corners, edges and face.
+#include "compiler/base/elementary.h"
 #include "compiler/driver/renderer_scale.h"
 
 #include <fmt/format.h>
@@ -74,8 +75,8 @@ Distances distances_from_eye(const Product& product) {
 double renderer_scale(const Distances& d) {
   if (!(d.farthest > 0) || (d.nearest >= kNear && d.farthest <= kFar)) return 1;
   int up = 0;
-  if (d.nearest < kNear) up = d.nearest > 0 ? static_cast<int>(std::ceil(std::log2(kComfortable / d.nearest))) : 64;
-  const int most = static_cast<int>(std::floor(std::log2(kFar / d.farthest)));
+  if (d.nearest < kNear) up = d.nearest > 0 ? static_cast<int>(std::ceil(math::log2(kComfortable / d.nearest))) : 64;
+  const int most = static_cast<int>(std::floor(math::log2(kFar / d.farthest)));
   return std::ldexp(1.0, std::min(up, most));
 }
 

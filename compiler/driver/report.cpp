@@ -3,13 +3,14 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/driver/compile.h"
 
 namespace orbc::driver {
 namespace {
 
 /// Of a bearing, counter-clockwise from the x direction of the eye.
-double degrees_of(const cover::Bearing& b) { return std::atan2(b.y, b.x) * 180 / std::numbers::pi; }
+double degrees_of(const cover::Bearing& b) { return math::atan2(b.y, b.x) * 180 / std::numbers::pi; }
 
 }  // namespace
 

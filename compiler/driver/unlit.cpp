@@ -1,3 +1,4 @@
+#include "compiler/base/elementary.h"
 #include "compiler/driver/unlit.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ double reach(const Opened& opened) {
 // Values as the hint writes them: to two digits.
 double rounded(double value) {
   if (value <= 0) return 0;
-  const double scale = std::pow(10.0, 1 - std::floor(std::log10(value)));
+  const double scale = math::pow(10.0, 1 - std::floor(math::log10(value)));
   return std::round(value * scale) / scale;
 }
 

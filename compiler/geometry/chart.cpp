@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::geometry {
 
 std::complex<double> disk_from_point(Space space, const Point& p) {
@@ -25,21 +27,21 @@ std::complex<double> gnomonic_from_point(const Point& p) { return {p.x / p.w, p.
 Point point_from_gnomonic(Space space, std::complex<double> z) { return normalised_point(space, {1, z.real(), z.imag()}); }
 
 std::complex<double> log_from_point(Space space, const Point& p) {
-  const double rho = std::hypot(p.x, p.y);
+  const double rho = math::hypot(p.x, p.y);
   if (rho == 0) return {0, 0};
   const double scale = arc_k(space, p.w, rho) / rho;
   return {p.x * scale, p.y * scale};
 }
 
 Point point_from_log(Space space, std::complex<double> z) {
-  const double r = std::abs(z);
+  const double r = math::abs(z);
   if (r == 0) return {};
   const double scale = sin_k(space, r) / r;
   return {cos_k(space, r), z.real() * scale, z.imag() * scale};
 }
 
 std::complex<double> axial_from_point(Space space, const Point& p) {
-  if (space == Space::spherical) return {std::atan2(p.x, p.w), std::atan2(p.y, p.w)};
+  if (space == Space::spherical) return {math::atan2(p.x, p.w), math::atan2(p.y, p.w)};
   return {atan_k(space, p.x / p.w), atan_k(space, p.y / p.w)};
 }
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::geometry {
 namespace {
 
@@ -25,13 +27,13 @@ Ambient apply(const Isometry& m, const Ambient& v) {
 
 Isometry identity(Space space) { return {space, 1, 0, false}; }
 
-Isometry rotation(Space space, double radians) { return {space, std::polar(1.0, radians / 2), 0, false}; }
+Isometry rotation(Space space, double radians) { return {space, math::polar(1.0, radians / 2), 0, false}; }
 
 Isometry translation_to(Space space, const Point& p) {
   if (space == Space::euclidean) return {space, 1, Complex(p.x, p.y) / 2.0, false};
   if (space == Space::spherical && p.w < 0) {
     // cos(d/2) from sin(d/2), which is the large one here.
-    const double rho = std::hypot(p.x, p.y), s = std::sqrt((1 - p.w) / 2);
+    const double rho = math::hypot(p.x, p.y), s = std::sqrt((1 - p.w) / 2);
     return {space, rho / (2 * s), s * Complex(p.x, p.y) / rho, false};
   }
   const double c = std::sqrt((1 + p.w) / 2);
@@ -39,7 +41,7 @@ Isometry translation_to(Space space, const Point& p) {
 }
 
 Isometry translation_by(Space space, double x, double y) {
-  const double d = std::hypot(x, y);
+  const double d = math::hypot(x, y);
   if (d == 0) return identity(space);
   return {space, cos_k(space, d / 2), sin_k(space, d / 2) * Complex(x, y) / d, false};
 }
@@ -59,7 +61,7 @@ Isometry inverse(const Isometry& m) {
 
 Isometry renormalised(const Isometry& m) {
   if (m.space == Space::euclidean) {
-    const double s = 1 / std::abs(m.a);
+    const double s = 1 / math::abs(m.a);
     return {m.space, s * m.a, m.b * s, m.reversing};
   }
   if (m.space == Space::spherical) {
@@ -67,7 +69,7 @@ Isometry renormalised(const Isometry& m) {
     return {m.space, s * m.a, s * m.b, m.reversing};
   }
   // |a|² − |b|² would cancel; instead |a| follows from |b|.
-  const double s = std::sqrt(1 + std::norm(m.b)) / std::abs(m.a);
+  const double s = std::sqrt(1 + std::norm(m.b)) / math::abs(m.a);
   return {m.space, s * m.a, m.b, m.reversing};
 }
 
@@ -106,8 +108,8 @@ Ambient operator*(const Matrix3& m, const Ambient& v) {
 
 double difference(const Isometry& l, const Isometry& r) {
   if (l.reversing != r.reversing) return std::numeric_limits<double>::infinity();
-  const double same = std::max(std::abs(l.a - r.a), std::abs(l.b - r.b));
-  const double opposite = std::max(std::abs(l.a + r.a), std::abs(l.b + r.b));
+  const double same = std::max(math::abs(l.a - r.a), math::abs(l.b - r.b));
+  const double opposite = std::max(math::abs(l.a + r.a), math::abs(l.b + r.b));
   return std::min(same, opposite);
 }
 

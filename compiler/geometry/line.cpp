@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::geometry {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr Line covector_cross(const Ambient& p, const Ambient& q) {
 }  // namespace
 
 Line normalised_line(Space space, const Line& l) {
-  const double n2 = space == Space::hyperbolic ? (std::hypot(l.x, l.y) - std::fabs(l.w)) * (std::hypot(l.x, l.y) + std::fabs(l.w))
+  const double n2 = space == Space::hyperbolic ? (math::hypot(l.x, l.y) - std::fabs(l.w)) * (math::hypot(l.x, l.y) + std::fabs(l.w))
                                                : l.x * l.x + l.y * l.y + curvature(space) * l.w * l.w;
   const double n = 1 / std::sqrt(n2);
   return {n * l.w, n * l.x, n * l.y};

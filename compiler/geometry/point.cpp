@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::geometry {
 
 Point normalised_point(Space space, const Ambient& v) {
@@ -19,7 +21,7 @@ Point normalised_point(Space space, const Ambient& v) {
 
 Tangent normalised_tangent(Space space, const Point& p, const Ambient& v) {
   if (space == Space::euclidean) {
-    const double n = 1 / std::hypot(v.x, v.y);
+    const double n = 1 / math::hypot(v.x, v.y);
     return {0, n * v.x, n * v.y};
   }
   if (space == Space::spherical) {
@@ -29,31 +31,31 @@ Tangent normalised_tangent(Space space, const Point& p, const Ambient& v) {
     return {n * t.w, n * t.x, n * t.y};
   }
   // H²: w follows from orthogonality; |t|² = |(x,y)|² − w² is computed as (radial/P_w)² + (transverse)², which cannot cancel.
-  const double rho = std::hypot(p.x, p.y);
+  const double rho = math::hypot(p.x, p.y);
   if (rho < 1e-300) {
-    const double n = 1 / std::hypot(v.x, v.y);
+    const double n = 1 / math::hypot(v.x, v.y);
     return {0, n * v.x, n * v.y};
   }
   const double ux = p.x / rho, uy = p.y / rho;
   const double radial = ux * v.x + uy * v.y, transverse = ux * v.y - uy * v.x;
-  const double n = 1 / std::hypot(radial / p.w, transverse);
+  const double n = 1 / math::hypot(radial / p.w, transverse);
   const double r = n * radial, t = n * transverse;
   return {r * rho / p.w, r * ux - t * uy, r * uy + t * ux};
 }
 
 double distance(Space space, const Point& p, const Point& q) {
   const double dx = p.x - q.x, dy = p.y - q.y;
-  if (space == Space::euclidean) return std::hypot(dx, dy);
+  if (space == Space::euclidean) return math::hypot(dx, dy);
   if (space == Space::spherical) {
     const double cw = p.x * q.y - p.y * q.x, cx = p.y * q.w - p.w * q.y, cy = p.w * q.x - p.x * q.w;
-    return std::atan2(std::sqrt(cw * cw + cx * cx + cy * cy), p.w * q.w + p.x * q.x + p.y * q.y);
+    return math::atan2(std::sqrt(cw * cw + cx * cx + cy * cy), p.w * q.w + p.x * q.x + p.y * q.y);
   }
   // sinh²(d/2) = |P−Q|²/4 = (cosh d − 1)/2. The first is right for neighbours far out (the w difference from ρ² differences, since w
   // alone has lost the small ones), the second for points far apart; each is taken where its largest term is the smaller one.
   const double chord2 = dx * dx + dy * dy, ww = p.w * q.w;
-  if (chord2 > 2 * ww) return 2 * std::asinh(std::sqrt(std::fmax(0, (ww - 1) - (p.x * q.x + p.y * q.y)) / 2));
+  if (chord2 > 2 * ww) return 2 * math::asinh(std::sqrt(std::fmax(0, (ww - 1) - (p.x * q.x + p.y * q.y)) / 2));
   const double dw = (dx * (p.x + q.x) + dy * (p.y + q.y)) / (p.w + q.w);
-  return 2 * std::asinh(std::sqrt(std::fmax(0, chord2 - dw * dw)) / 2);
+  return 2 * math::asinh(std::sqrt(std::fmax(0, chord2 - dw * dw)) / 2);
 }
 
 Point point_along(Space space, const Point& p, const Tangent& v, double s) {

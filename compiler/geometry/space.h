@@ -1,6 +1,8 @@
 #pragma once
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::geometry {
 
 /// The three simply connected surfaces of constant curvature; the value is the curvature κ.
@@ -14,23 +16,23 @@ enum class Space : int { hyperbolic = -1, euclidean = 0, spherical = 1 };
 /// Generalised trigonometry: cosκ, sinκ, tanκ = cos | 1 | cosh, sin | s | sinh, tan | s | tanh, and their inverses.
 /// Units: curvature radii for κ = ±1, scene units for κ = 0. Source: design §2.
 [[nodiscard]] inline double cos_k(Space space, double s) {
-  return space == Space::spherical ? std::cos(s) : space == Space::euclidean ? 1 : std::cosh(s);
+  return space == Space::spherical ? math::cos(s) : space == Space::euclidean ? 1 : math::cosh(s);
 }
 [[nodiscard]] inline double sin_k(Space space, double s) {
-  return space == Space::spherical ? std::sin(s) : space == Space::euclidean ? s : std::sinh(s);
+  return space == Space::spherical ? math::sin(s) : space == Space::euclidean ? s : math::sinh(s);
 }
 [[nodiscard]] inline double tan_k(Space space, double s) {
-  return space == Space::spherical ? std::tan(s) : space == Space::euclidean ? s : std::tanh(s);
+  return space == Space::spherical ? math::tan(s) : space == Space::euclidean ? s : math::tanh(s);
 }
 [[nodiscard]] inline double asin_k(Space space, double v) {
-  return space == Space::spherical ? std::asin(v < -1 ? -1 : v > 1 ? 1 : v) : space == Space::euclidean ? v : std::asinh(v);
+  return space == Space::spherical ? math::asin(v < -1 ? -1 : v > 1 ? 1 : v) : space == Space::euclidean ? v : math::asinh(v);
 }
 [[nodiscard]] inline double atan_k(Space space, double v) {
-  return space == Space::spherical ? std::atan(v) : space == Space::euclidean ? v : std::atanh(v);
+  return space == Space::spherical ? math::atan(v) : space == Space::euclidean ? v : math::atanh(v);
 }
 /// Arc length r ≥ 0 of the point at (w, ρ) = (cosκ r, sinκ r); accurate for all r.
 [[nodiscard]] inline double arc_k(Space space, double w, double rho) {
-  return space == Space::spherical ? std::atan2(rho, w) : space == Space::euclidean ? rho : std::asinh(rho);
+  return space == Space::spherical ? math::atan2(rho, w) : space == Space::euclidean ? rho : math::asinh(rho);
 }
 
 }  // namespace orbc::geometry

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/place/texel.h"
 
@@ -62,12 +63,12 @@ double solid_pattern(Pattern pattern, const Vector3& at, double cell) {
   switch (pattern) {
     case Pattern::marble: {
       const double sheet = p.x + 0.6 * p.y + 0.8 * p.z + 1.3 * turbulence(1.1 * p, 5);
-      const double vein = 1 - std::fabs(std::sin(3.14159265358979 * sheet));
+      const double vein = 1 - std::fabs(math::sin(3.14159265358979 * sheet));
       return std::clamp(0.75 * step(0.72, 1, vein) + 0.25 * step(0.1, 0.9, vein) * step(-0.4, 0.8, noise(2.3 * p)), 0.0, 1.0);
     }
     case Pattern::wood: {
       const Vector3 bent = p + 0.18 * Vector3{noise(1.3 * p), noise(1.3 * p + Vector3{7.7, 3.1, 9.2}), 0};
-      const double ring = 4 * std::hypot(bent.x + 0.9, bent.y + 0.4 + 0.08 * p.z), within = ring - std::floor(ring);
+      const double ring = 4 * math::hypot(bent.x + 0.9, bent.y + 0.4 + 0.08 * p.z), within = ring - std::floor(ring);
       const double grain = 0.12 * noise({28 * p.x, 28 * p.y, 2 * p.z});
       return std::clamp(step(0.15, 0.85, within) * (1 - step(0.9, 1, within)) + grain, 0.0, 1.0);
     }

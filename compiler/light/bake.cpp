@@ -12,6 +12,7 @@
 #include <numbers>
 #include <optional>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/blocks.h"
 #include "compiler/light/lit_part.h"
 #include "compiler/light/passing.h"
@@ -160,7 +161,7 @@ class BlockBaker {
       if (k > 2 && block_.second < 0) break;
       const std::uint32_t v =
           part_.mesh.triangles[k < 3 ? block_.first : static_cast<std::size_t>(block_.second)][static_cast<std::size_t>(k % 3)];
-      radius = std::max(radius, std::hypot(geometry::distance(space, centre.floor, part_.mesh.floor[v]), part_.mesh.z[v] - centre.z));
+      radius = std::max(radius, math::hypot(geometry::distance(space, centre.floor, part_.mesh.floor[v]), part_.mesh.z[v] - centre.z));
     }
     return images_near(part_.field, centre, 1.2 * radius);
   }

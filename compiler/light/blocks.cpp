@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compiler/base/elementary.h"
 #include "compiler/place/texel.h"
 
 namespace orbc::light {
@@ -12,7 +13,7 @@ namespace {
 using place::PlacedMesh;
 
 double edge_length(geometry::Space space, const PlacedMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  return std::hypot(geometry::distance(space, mesh.floor[a], mesh.floor[b]), mesh.z[a] - mesh.z[b]);
+  return math::hypot(geometry::distance(space, mesh.floor[a], mesh.floor[b]), mesh.z[a] - mesh.z[b]);
 }
 
 /// Edges by their two ends: who has them.

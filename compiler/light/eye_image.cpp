@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::light {
 
 using geometry::Position;
@@ -33,8 +35,8 @@ double pixels_along(const EyeImage& eye, const Way& sight, const Position& at, c
   const double ahead = c < 1e-9 ? 0 : trace::inner(eye.space, flat, level) / c;
   const double across = std::sqrt(std::max(0.0, trace::inner(eye.space, flat, flat) - ahead * ahead));
   const double stretch = sight.arc < 0.01 ? 1 : sight.arc / std::max(std::fabs(geometry::sin_k(eye.space, sight.arc)), 0.01);
-  const double upright = std::max(std::fabs(ahead * sight.start.z - along.z * c), 0.3 * std::hypot(ahead, along.z));
-  return per_radian * std::hypot(across * stretch, upright) / std::max(sight.length, 1e-3);
+  const double upright = std::max(std::fabs(ahead * sight.start.z - along.z * c), 0.3 * math::hypot(ahead, along.z));
+  return per_radian * math::hypot(across * stretch, upright) / std::max(sight.length, 1e-3);
 }
 
 std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera, const Position& point) {
@@ -56,11 +58,11 @@ bool beside_picture(const place::Eye& camera, const std::vector<geometry::Vector
   for (const auto& d : directions) middle = middle + d;
   const double size = geometry::length(middle);
   if (size < 1e-3) return false;
-  const auto angle_to = [&](const geometry::Vector3& d) { return std::acos(std::clamp(geometry::dot(middle, d) / size, -1.0, 1.0)); };
+  const auto angle_to = [&](const geometry::Vector3& d) { return math::acos(std::clamp(geometry::dot(middle, d) / size, -1.0, 1.0)); };
   double radius = 0;
   for (const auto& d : directions) radius = std::max(radius, angle_to(d));
-  const double half = std::tan(camera.fov.radians / 2);
-  const double corner = std::atan(half * std::hypot(1.0, static_cast<double>(camera.height) / camera.width));
+  const double half = math::tan(camera.fov.radians / 2);
+  const double corner = math::atan(half * math::hypot(1.0, static_cast<double>(camera.height) / camera.width));
   return angle_to(camera.forward) > corner + 1.5 * radius + 0.05;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/frame.h"
 #include "compiler/light/lamp.h"
 #include "compiler/mesh/primitives.h"
@@ -38,7 +39,7 @@ place::PlacedMesh sphere(Space space, const HungLamp& lamp, double radius, doubl
 place::PlacedMesh plate(Space space, const HungLamp& lamp, const scene::Lamp& spec, double height) {
   const Frame frame = frame_at(space, lamp.centre.floor);
   const Vector3 axis = local(space, frame, lamp.axes.front());
-  const double h = std::hypot(axis.x, axis.y);
+  const double h = math::hypot(axis.x, axis.y);
   const Vector3 across = h < 1e-9 ? Vector3{1, 0, 0} : Vector3{-axis.y / h, axis.x / h, 0}, other = geometry::cross(axis, across);
   place::PlacedMesh mesh;
   add_vertex(mesh, lamp.centre, height);
@@ -46,8 +47,8 @@ place::PlacedMesh plate(Space space, const HungLamp& lamp, const scene::Lamp& sp
   const int around = round ? 32 : 4;
   for (int i = 0; i < around; ++i) {
     const double turn = 2 * std::numbers::pi * i / around;
-    const double x = round ? spec.radius * std::cos(turn) : spec.size[0] * (i == 0 || i == 3 ? 0.5 : -0.5),
-                 y = round ? spec.radius * std::sin(turn) : spec.size[1] * (i < 2 ? 0.5 : -0.5);
+    const double x = round ? spec.radius * math::cos(turn) : spec.size[0] * (i == 0 || i == 3 ? 0.5 : -0.5),
+                 y = round ? spec.radius * math::sin(turn) : spec.size[1] * (i < 2 ? 0.5 : -0.5);
     add_vertex(mesh, exponential(space, lamp.centre, frame, x * across + y * other), height);
     mesh.triangles.push_back({0, static_cast<std::uint32_t>(1 + i), static_cast<std::uint32_t>(1 + (i + 1) % around)});
   }
@@ -64,11 +65,11 @@ place::PlacedMesh tube(Space space, const HungLamp& lamp, const scene::Lamp& spe
     const Position at = trace::position_at(space, axis, t);
     const Frame frame = frame_at(space, at.floor);
     const Vector3 d = local(space, frame, trace::direction_at(space, axis, t));
-    const double h = std::hypot(d.x, d.y);
+    const double h = math::hypot(d.x, d.y);
     const Vector3 across = h < 1e-9 ? Vector3{1, 0, 0} : Vector3{-d.y / h, d.x / h, 0}, other = geometry::cross(d, across);
     for (int i = 0; i < kAround; ++i) {
       const double turn = 2 * std::numbers::pi * i / kAround;
-      add_vertex(mesh, exponential(space, at, frame, (spec.radius * std::cos(turn)) * across + (spec.radius * std::sin(turn)) * other),
+      add_vertex(mesh, exponential(space, at, frame, (spec.radius * math::cos(turn)) * across + (spec.radius * math::sin(turn)) * other),
                  height);
     }
   }

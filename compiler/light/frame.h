@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/point.h"
 #include "compiler/trace/ray.h"
 
@@ -34,7 +35,7 @@ struct Frame {
 /// The position that a vector at `from` leads to: the exponential map of the product geometry.
 [[nodiscard]] inline geometry::Position exponential(geometry::Space space, const geometry::Position& from, const Frame& frame,
                                                     const geometry::Vector3& v) {
-  const double s = std::hypot(v.x, v.y);
+  const double s = math::hypot(v.x, v.y);
   if (s < 1e-300) return {from.floor, from.z + v.z};
   const geometry::Ambient d = (v.x / s) * frame.e1 + (v.y / s) * frame.e2;
   return {geometry::point_along(space, from.floor, geometry::Tangent(d.w, d.x, d.y), s), from.z + v.z};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/falloff.h"
 #include "compiler/light/way.h"
 #include "compiler/room/room.h"
@@ -29,7 +30,7 @@ Vector3 across(const Vector3& n) {
 Vector3 about(const Vector3& axis, double cosine, double turn) {
   const Vector3 e = across(axis), f = cross(axis, e);
   const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  return cosine * axis + (sine * std::cos(turn)) * e + (sine * std::sin(turn)) * f;
+  return cosine * axis + (sine * math::cos(turn)) * e + (sine * math::sin(turn)) * f;
 }
 
 void add_lobe(const LightField& field, const LampImage& image, const Foot& foot, const LightPoint& point, std::vector<Guide::Lobe>& lobes,
@@ -38,7 +39,7 @@ void add_lobe(const LightField& field, const LampImage& image, const Foot& foot,
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way way = way_to(space, point.at, foot.at, image.sheet);
   if (!way.exists) return;
-  const double radius = kSpread * foot.reach, size = std::hypot(way.length, radius), cosine = way.length / size;
+  const double radius = kSpread * foot.reach, size = math::hypot(way.length, radius), cosine = way.length / size;
   const Vector3 axis = local(space, guide.frame, way.start);
   if (cosine < kWidest) return;
   // How much the spot may add, were it seen: its cosines, never quite 0 for the part of it that lies nearer or higher. A spot on the
@@ -114,7 +115,7 @@ Chosen choose(const Guide& guide, const std::array<double, 3>& u) {
   Vector3 d;
   if (u[0] < guide.by_cosine || guide.count == 0) {
     const double r = std::sqrt(u[2]);
-    d = std::sqrt(std::max(0.0, 1 - u[2])) * guide.normal + (r * std::cos(turn)) * guide.across + (r * std::sin(turn)) * guide.other;
+    d = std::sqrt(std::max(0.0, 1 - u[2])) * guide.normal + (r * math::cos(turn)) * guide.across + (r * math::sin(turn)) * guide.other;
   } else {
     double left = u[0] - guide.by_cosine;
     int i = 0;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/falloff.h"
 #include "compiler/light/lobe.h"
 #include "compiler/light/shade.h"
@@ -55,8 +56,8 @@ struct Lobe {
     const double size = std::sqrt(trace::inner(space, sum, sum));
     const double lh = size / 2, lean = turn / (2 * std::max(lh, 0.1));  // (l + v)/|l + v| turns by half as much as l, more at grazing light
     const double nh = size < 1e-9 ? 1 : std::min(1.0, trace::inner(space, point.normal, (1 / size) * sum));
-    const double angle = std::max(0.0, std::acos(std::max(-1.0, nh)) - lean);
-    return largest(reflectance(face_on, lh - turn)) * towards_eye(angle > 1.5 ? 0 : std::cos(angle), wide);
+    const double angle = std::max(0.0, math::acos(std::max(-1.0, nh)) - lean);
+    return largest(reflectance(face_on, lh - turn)) * towards_eye(angle > 1.5 ? 0 : math::cos(angle), wide);
   }
 };
 

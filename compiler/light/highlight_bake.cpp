@@ -10,6 +10,7 @@
 #include <optional>
 #include <tuple>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/block_texels.h"
 #include "compiler/light/eye_image.h"
 #include "compiler/light/highlight_pack.h"
@@ -183,7 +184,7 @@ class PartShine {
     if (!pixels) return std::nullopt;
     const BlockTexels base(job_.baked.atlas.image, job_.baked.boxes[job_.part][number], whole_);
     const auto level = [](double cells) {
-      return std::clamp(static_cast<int>(std::ceil(std::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxHighlightLevel);
+      return std::clamp(static_cast<int>(std::ceil(math::log2(std::max(1.0, cells)) - 1e-9)), 0, kMaxHighlightLevel);
     };
     const int a = level((*pixels)[0] / job_.options.fine_px), b = level((*pixels)[1] / job_.options.fine_px);
     const int a0 = std::min(a, level((*pixels)[0] / job_.options.probe_px)), b0 = std::min(b, level((*pixels)[1] / job_.options.probe_px));

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <optional>
 
+#include "compiler/base/elementary.h"
 #include "compiler/cover/enumerate.h"
 #include "compiler/cover/reach.h"
 #include "compiler/light/falloff.h"
@@ -159,7 +160,7 @@ class Collector {
   }
 
  private:
-  double weight_of(const FloorCopy& copy, const Storey& storey) const { return std::pow(mirrors_.best, copy.bounces + storey.bounces); }
+  double weight_of(const FloorCopy& copy, const Storey& storey) const { return math::pow(mirrors_.best, copy.bounces + storey.bounces); }
 
   // Whether any point of the room could get as much as the cut. On S² light grows again with distance, and images are few.
   bool matters(const HungLamp& lamp, const FloorCopy& copy, const Storey& storey) const {
@@ -167,7 +168,7 @@ class Collector {
     if (options_.cut <= 0 || space == Space::spherical) return true;
     const double arc = std::max(0.0, geometry::distance(space, {}, copy.cover_from_room * lamp.centre.floor) - reach_);
     const double z = storey.sign * lamp.centre.z + storey.shift, rise = std::max({0.0, -z, z - room_.height});
-    return at_most(space, lamp, weight_of(copy, storey), options_.exposure, std::hypot(arc, rise), arc) >= options_.cut;
+    return at_most(space, lamp, weight_of(copy, storey), options_.exposure, math::hypot(arc, rise), arc) >= options_.cut;
   }
 
   LampImage image(int l, const FloorCopy& copy, const Storey& storey) const {

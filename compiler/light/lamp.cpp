@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/predicates.h"
 #include "compiler/light/frame.h"
 #include "compiler/light/random.h"
@@ -52,7 +53,7 @@ Mount mount_of(Space space, const Position& centre, const std::optional<Position
   const trace::Segment segment = trace::segment_between(space, centre, *to);
   if (segment.length <= 0) return mount;
   mount.axis = geometry::normalised(local(space, mount.floor, {segment.ray.c * segment.ray.along, segment.ray.m}));
-  const double h = std::hypot(mount.axis.x, mount.axis.y);
+  const double h = math::hypot(mount.axis.x, mount.axis.y);
   if (h < 1e-9) {
     mount.axis = {0, 0, mount.axis.z < 0 ? -1.0 : 1.0};
     return mount;
@@ -70,14 +71,14 @@ Vector3 offset(const scene::Lamp& lamp, const Mount& mount, int i) {
   if (lamp.kind == LampKind::disk && i < kDesign)
     return ((i % 2 ? 0.5 : -0.5) * lamp.radius) * mount.across + ((i / 2 ? 0.5 : -0.5) * lamp.radius) * mount.other;
   if (lamp.kind == LampKind::disk)
-    return (lamp.radius * std::sqrt(v) * std::cos(turn)) * mount.across + (lamp.radius * std::sqrt(v) * std::sin(turn)) * mount.other;
+    return (lamp.radius * std::sqrt(v) * math::cos(turn)) * mount.across + (lamp.radius * std::sqrt(v) * math::sin(turn)) * mount.other;
   // Points of the ball whose shadow on any plane is the even disk of a Lambertian sphere up to its rim: on its sphere of radius √(3/4).
   if (i < kDesign) {  // a tetrahedron
     const double side = lamp.radius / 2, x = i == 0 || i == 1 ? side : -side, y = i == 0 || i == 2 ? side : -side;
     return {x, y, i == 0 || i == 3 ? side : -side};
   }
   const double z = 1 - 2 * v, r = std::sqrt(std::max(0.0, 1 - z * z)), size = lamp.radius * 0.8660254037844386;
-  return {size * r * std::cos(turn), size * r * std::sin(turn), size * z};
+  return {size * r * math::cos(turn), size * r * math::sin(turn), size * z};
 }
 
 void add_samples(const scene::Lamp& lamp, Space space, const std::optional<Position>& to, HungLamp& hung) {
@@ -113,8 +114,8 @@ void set_profile(const scene::Lamp& lamp, HungLamp& hung) {
   if (lamp.kind == LampKind::rectangle || lamp.kind == LampKind::disk) hung.gain = 4;
   if (lamp.kind == LampKind::tube) hung.gain = 4 / std::numbers::pi;
   if (lamp.kind != LampKind::spot) return;
-  hung.cone_outer = std::cos(lamp.cone.radians / 2);
-  hung.cone_inner = std::cos(0.9 * lamp.cone.radians / 2);
+  hung.cone_outer = math::cos(lamp.cone.radians / 2);
+  hung.cone_inner = math::cos(0.9 * lamp.cone.radians / 2);
   hung.gain = 2 / (1 - (hung.cone_inner + hung.cone_outer) / 2);  // the smooth step has the mean of its ends
 }
 

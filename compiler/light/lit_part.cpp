@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/way.h"
 
 namespace orbc::light {
@@ -44,7 +45,7 @@ std::uint64_t light_vertices(LitPart& part, const Executor& executor, const Prog
     double radius = 0;
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       const geometry::Position p = position(i);
-      radius = std::max(radius, std::hypot(geometry::distance(part.room.room.space, centre.floor, p.floor), p.z - centre.z));
+      radius = std::max(radius, math::hypot(geometry::distance(part.room.room.space, centre.floor, p.floor), p.z - centre.z));
     }
     const std::vector<std::uint32_t> near = images_near(part.field, centre, radius);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/frame.h"
 #include "compiler/light/random.h"
 
@@ -28,11 +29,11 @@ double mirrored_digits(unsigned k) {
 // A facet's normal, chosen among those that are seen from `eye`.
 Vector3 seen_facet(const Vector3& eye, double alpha, const std::array<double, 2>& u) {
   const Vector3 stretched = geometry::normalised({alpha * eye.x, alpha * eye.y, eye.z});
-  const double flat = std::hypot(stretched.x, stretched.y);
+  const double flat = math::hypot(stretched.x, stretched.y);
   const Vector3 across = flat > 1e-12 ? Vector3{-stretched.y / flat, stretched.x / flat, 0} : Vector3{1, 0, 0};
   const Vector3 other = cross(stretched, across);
   const double r = std::sqrt(u[0]), phi = 2 * std::numbers::pi * u[1], half = 0.5 * (1 + stretched.z);
-  const double x = r * std::cos(phi), y = (1 - half) * std::sqrt(std::max(0.0, 1 - x * x)) + half * r * std::sin(phi);
+  const double x = r * math::cos(phi), y = (1 - half) * std::sqrt(std::max(0.0, 1 - x * x)) + half * r * math::sin(phi);
   const Vector3 n = x * across + y * other + std::sqrt(std::max(0.0, 1 - x * x - y * y)) * stretched;
   return geometry::normalised({alpha * n.x, alpha * n.y, std::max(1e-9, n.z)});
 }
@@ -107,7 +108,7 @@ Color reflectance(const Color& face_on, double cosine) {
 
 Color face_on(const scene::Material& material, const Color& albedo) {
   if (material.kind == scene::MaterialKind::metal) return albedo;
-  const double f = std::pow((material.index - 1) / (material.index + 1), 2);
+  const double f = math::pow((material.index - 1) / (material.index + 1), 2);
   return {f, f, f};
 }
 

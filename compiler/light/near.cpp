@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/light/shade.h"
 
@@ -30,21 +31,21 @@ NearImages near_images(const LightField& field, const Executor& executor) {
   }
   const place::PlacedRoom& room = *field.scene.room;
   near.height = room.height, near.across = kAcross, near.up = kUp;
-  for (const geometry::Point& p : room.room.outline) near.reach = std::max(near.reach, std::abs(geometry::disk_from_point(space, p)));
+  for (const geometry::Point& p : room.room.outline) near.reach = std::max(near.reach, math::abs(geometry::disk_from_point(space, p)));
   near.images.resize(static_cast<std::size_t>(kAcross) * kAcross * kUp);
   executor(near.images.size(), [&](std::size_t cell) {
     const auto number = static_cast<int>(cell);
     const int i = number % kAcross, j = number / kAcross % kAcross, k = number / kAcross / kAcross;
     const double size = 2 * near.reach / kAcross, half = size / std::numbers::sqrt2;
     const std::complex<double> middle(-near.reach + (i + 0.5) * size, -near.reach + (j + 0.5) * size);
-    const double outer = std::min(near.reach, std::abs(middle) + half);
-    if (std::abs(middle) - half > near.reach) return;   // no point of the room is there
+    const double outer = std::min(near.reach, math::abs(middle) + half);
+    if (math::abs(middle) - half > near.reach) return;   // no point of the room is there
     // The disk's lengths are at most 2/(1 − ρ²) times those of the paper; the way to a point of the room stays in its circle.
-    const std::complex<double> centre = std::abs(middle) > near.reach ? near.reach / std::abs(middle) * middle : middle;
+    const std::complex<double> centre = math::abs(middle) > near.reach ? near.reach / math::abs(middle) * middle : middle;
     const double stretch = space == Space::euclidean ? 1 : 2 / std::max(1e-9, 1 - outer * outer);
     const double rise = near.height / kUp;
     const geometry::Position at{geometry::point_from_disk(space, centre), (k + 0.5) * rise};
-    near.images[cell] = images_near(field, at, std::hypot((half + std::abs(middle - centre)) * stretch, rise / 2), 1 / std::numbers::pi);
+    near.images[cell] = images_near(field, at, math::hypot((half + math::abs(middle - centre)) * stretch, rise / 2), 1 / std::numbers::pi);
   });
   return near;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/frame.h"
 #include "compiler/trace/analytic.h"
 
@@ -24,7 +25,7 @@ Vector3 corner_normal(Space space, const Frame& frame, const PlacedMesh& mesh, c
   const Vector3 a = edge(p), b = edge(q), n = cross(a, b);
   const double area = length(n);
   if (!(area > 1e-30)) return {0, 0, 0};
-  return (std::atan2(area, dot(a, b)) / area) * n;
+  return (math::atan2(area, dot(a, b)) / area) * n;
 }
 
 bool same_place(const PlacedMesh& mesh, std::uint32_t a, std::uint32_t b) {
@@ -113,7 +114,7 @@ geometry::Position inside(const place::PlacedRoom& room, geometry::Position at) 
 
 PartNormals part_normals(const place::PlacedRoom& room, const PlacedMesh& part, double crease) {
   const Space space = room.room.space;
-  if (part.kind == PartKind::object || part.kind == PartKind::frame) return of_object(space, part, std::cos(crease));
+  if (part.kind == PartKind::object || part.kind == PartKind::frame) return of_object(space, part, math::cos(crease));
   PartNormals result;
   trace::Direction normal{{0, 0, 0}, part.kind == PartKind::ceiling ? -1.0 : 1.0};
   if (part.kind == PartKind::wall) normal = trace::normal_of_wall(space, room.room.walls[static_cast<std::size_t>(part.wall)]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/albedo.h"
 #include "compiler/light/random.h"
 
@@ -51,7 +52,7 @@ bool blurs(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const B
 
 }  // namespace
 
-int level_of(double cells) { return std::clamp(static_cast<int>(std::lround(std::log2(std::max(1.0, cells)))), 0, kMaxPatternHalvings); }
+int level_of(double cells) { return std::clamp(static_cast<int>(std::lround(math::log2(std::max(1.0, cells)))), 0, kMaxPatternHalvings); }
 
 double pattern_density(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const Block& block, const BakeOptions& options) {
   const place::Look& look = room.looks[mesh.look[block.first]];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::light {
 namespace {
 
@@ -16,7 +18,8 @@ Ball ball_of(geometry::Space space, const place::PlacedMesh& part) {
     sum = sum + part.floor[i], low = std::min(low, part.z[i]), high = std::max(high, part.z[i]);
   Ball ball{{geometry::normalised_point(space, sum), (low + high) / 2}, 0};
   for (std::size_t i = 0; i < part.floor.size(); ++i)
-    ball.radius = std::max(ball.radius, std::hypot(geometry::distance(space, ball.centre.floor, part.floor[i]), part.z[i] - ball.centre.z));
+    ball.radius =
+        std::max(ball.radius, math::hypot(geometry::distance(space, ball.centre.floor, part.floor[i]), part.z[i] - ball.centre.z));
   return ball;
 }
 

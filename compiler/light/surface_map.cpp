@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::light {
 namespace {
 
@@ -63,7 +65,7 @@ std::array<double, 2> SurfaceMap::cell_coordinates(const PlacedMesh& part, const
   const geometry::Space space = room_.room.space;
   if (part.kind == PartKind::wall) {
     const auto [p, v] = in_plane_of_wall(space, room_.room.walls[static_cast<std::size_t>(part.wall)], at);
-    const double s = space == geometry::Space::euclidean ? v : space == geometry::Space::spherical ? std::atan2(v, p) : std::atanh(v / p);
+    const double s = space == geometry::Space::euclidean ? v : space == geometry::Space::spherical ? math::atan2(v, p) : math::atanh(v / p);
     return {s, z};
   }
   const double scale = space == geometry::Space::spherical ? 1 + at.w : at.w;
@@ -124,7 +126,7 @@ SurfaceMap::Chart SurfaceMap::chart_of(const PlacedMesh& part) const {
     } else if (sphere) {
       // Edges are arcs of less than half a circle: none goes farther from its chord than half of it.
       for (std::size_t k = 0; k < 3; ++k)
-        bulge = std::max(bulge, std::hypot(q[(k + 1) % 3][0] - q[k][0], q[(k + 1) % 3][1] - q[k][1]) / 2);
+        bulge = std::max(bulge, math::hypot(q[(k + 1) % 3][0] - q[k][0], q[(k + 1) % 3][1] - q[k][1]) / 2);
     }
     for (const double turn : {0.0, -2 * std::numbers::pi, 2 * std::numbers::pi}) {
       if (turn != 0 && !around) continue;

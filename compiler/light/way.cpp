@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/falloff.h"
 #include "compiler/light/frame.h"
 #include "compiler/trace/analytic.h"
@@ -51,13 +52,13 @@ Towards towards(Space space, const geometry::Point& p, const geometry::Point& q)
     const double dw = q.w - p.w, chord2 = dw * dw + dx * dx + dy * dy, half = chord2 / 2;
     to.direction = {dw + half * p.w, dx + half * p.x, dy + half * p.y};
     sine = std::sqrt(to.direction.w * to.direction.w + to.direction.x * to.direction.x + to.direction.y * to.direction.y);
-    to.arc = std::atan2(sine, 1 - half);
+    to.arc = math::atan2(sine, 1 - half);
   } else {
     // cosh d − 1: near by the chord, whose w comes from ρ² differences since w alone has lost the small ones; far by the product.
     const double dw = (dx * (p.x + q.x) + dy * (p.y + q.y)) / (p.w + q.w), chord2 = dx * dx + dy * dy, ww = p.w * q.w;
     const double half = chord2 > 2 * ww ? std::max(0.0, (ww - 1) - (p.x * q.x + p.y * q.y)) : std::max(0.0, chord2 - dw * dw) / 2;
     sine = std::sqrt(half * (half + 2));
-    to.arc = std::log1p(half + sine);
+    to.arc = math::log1p(half + sine);
     const double x = dx - half * p.x, y = dy - half * p.y;
     to.direction = {(p.x * x + p.y * y) / p.w, x, y};
   }

@@ -14,6 +14,7 @@
 #include <optional>
 #include <set>
 
+#include "compiler/base/elementary.h"
 #include "compiler/mesh/sieve.h"
 #include "compiler/mesh/weld.h"
 
@@ -354,7 +355,7 @@ class Reader {
     const auto uv = numbers(found->second, TINYGLTF_TYPE_VEC2, 2, what + ": TEXCOORD");
     if (uv.size() != 2 * count) fail("mesh.bad-gltf", what + " has more or fewer texture coordinates than vertices");
     has_uv_ = true;
-    const double c = std::cos(turn), s = std::sin(turn);
+    const double c = math::cos(turn), s = math::sin(turn);
     for (std::size_t i = 0; i < count; ++i) {
       // KHR_texture_transform: translation · rotation · scale; v points down, so the rotation is written as below.
       const double u = scale[0] * uv[2 * i], v = scale[1] * uv[2 * i + 1];

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "compiler/base/check.h"
+#include "compiler/base/elementary.h"
 #include "compiler/mesh/exr_stream.h"
 #include "compiler/mesh/image.h"
 
@@ -55,7 +56,7 @@ bool write_rows(png_structp png, png_infop info, const DeepImage& image, const I
 
 double decode(std::uint16_t code) {  // IEC 61966-2-1
   const double v = code / 65535.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace

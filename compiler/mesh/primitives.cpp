@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "compiler/base/check.h"
+#include "compiler/base/elementary.h"
 #include "compiler/mesh/weld.h"
 
 namespace orbc::mesh {
@@ -23,7 +24,7 @@ std::vector<std::array<double, 2>> circle(int count) {
     const int at = i % count;
     // Quarter turns are exact, so that boxes of extent are too.
     const double angle = 2 * pi * at / count;
-    points.push_back({4 * at == count || 4 * at == 3 * count ? 0 : std::cos(angle), at == 0 || 2 * at == count ? 0 : std::sin(angle)});
+    points.push_back({4 * at == count || 4 * at == 3 * count ? 0 : math::cos(angle), at == 0 || 2 * at == count ? 0 : math::sin(angle)});
   }
   return points;
 }
@@ -76,7 +77,7 @@ Mesh make_sphere(double radius, int around, int rings) {
   Grid grid(mesh, around, rings);
   const auto c = circle(around);
   for (int j = 0; j <= rings; ++j) {
-    const double z = j == 0 ? 1 : j == rings ? -1 : std::cos(pi * j / rings), r = j == 0 || j == rings ? 0 : std::sin(pi * j / rings);
+    const double z = j == 0 ? 1 : j == rings ? -1 : math::cos(pi * j / rings), r = j == 0 || j == rings ? 0 : math::sin(pi * j / rings);
     for (int i = 0; i <= around; ++i) {
       // At a pole each column has its own vertex, with uv in the middle of its triangle.
       const double u = (j == 0 || j == rings ? i + 0.5 : i) / around;
@@ -175,7 +176,7 @@ Mesh sweep(const std::vector<Vector3>& middle, double tube, int across) {
     const double c2 = dot(v2, v2);
     normal[i] = c2 > 0 ? rl - (2 / c2 * dot(v2, rl)) * v2 : rl;
   }
-  const double left = std::atan2(dot(cross(normal[0], normal[n]), tangent[0]), dot(normal[0], normal[n]));
+  const double left = math::atan2(dot(cross(normal[0], normal[n]), tangent[0]), dot(normal[0], normal[n]));
   const auto c = circle(across);
   Mesh mesh;
   Grid grid(mesh, static_cast<int>(n), across);
@@ -184,7 +185,7 @@ Mesh sweep(const std::vector<Vector3>& middle, double tube, int across) {
       const auto at = i % n;
       const double back = -left * static_cast<double>(at) / static_cast<double>(n);
       const Vector3 side = cross(tangent[at], normal[at]);
-      const Vector3 e = std::cos(back) * normal[at] + std::sin(back) * side, f = cross(tangent[at], e);
+      const Vector3 e = math::cos(back) * normal[at] + math::sin(back) * side, f = cross(tangent[at], e);
       const auto& unit = c[static_cast<std::size_t>(j)];
       grid.vertex(middle[at] + tube * (unit[0] * e + unit[1] * f), static_cast<double>(i) / static_cast<double>(n),
                   static_cast<double>(j) / across);
@@ -226,8 +227,8 @@ Mesh make_torus_knot(int p, int q, double radius, double tube, int along, int ac
   std::vector<Vector3> middle;
   const double minor = radius / 2.5;
   for (int i = 0; i < along; ++i) {
-    const double t = 2 * pi * i / along, r = radius + minor * std::cos(q * t);
-    middle.push_back({r * std::cos(p * t), r * std::sin(p * t), minor * std::sin(q * t)});
+    const double t = 2 * pi * i / along, r = radius + minor * math::cos(q * t);
+    middle.push_back({r * math::cos(p * t), r * math::sin(p * t), minor * math::sin(q * t)});
   }
   return sweep(middle, tube, across);
 }

@@ -228,6 +228,14 @@ Integer copies_up_to(const Orbifold& orbifold, int length) {
   return std::accumulate(copies.begin(), copies.end(), Integer(0));
 }
 
+/// By squaring: the library's has other bits on other machines.
+static long double power_of(long double t, int k) {
+  long double power = 1;
+  for (; k > 0; k /= 2, t *= t)
+    if (k % 2 == 1) power *= t;
+  return power;
+}
+
 std::optional<double> growth_rate(const Orbifold& orbifold) {
   const Space space = space_of(orbifold);
   if (space == Space::spherical) return std::nullopt;
@@ -241,7 +249,7 @@ std::optional<double> growth_rate(const Orbifold& orbifold) {
   const auto value = [&](long double t) {
     long double sum = 1 + t - walls * t;
     for (const auto& [k, count] : counts) {
-      const long double power = std::pow(t, static_cast<long double>(k));
+      const long double power = power_of(t, k);
       sum += static_cast<long double>(count) * power * (1 - t) / (1 - power);
     }
     return sum;

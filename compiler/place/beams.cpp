@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "compiler/base/elementary.h"
 #include "compiler/place/locate.h"
 #include "compiler/place/net.h"
 
@@ -39,7 +40,7 @@ struct Strip {
     // ⟨X, along⟩ = cosκ(d) sinκ(s) and κ⟨X, start⟩ = cosκ(d) cosκ(s).
     const double sine = form(along, k == 0 ? p.floor - start : static_cast<const Ambient&>(p.floor)),
                  cosine = k == 0 ? 1 : k * form(start, p.floor);
-    const double s = space == Space::spherical ? std::atan2(sine, cosine) : geometry::atan_k(space, sine / cosine);
+    const double s = space == Space::spherical ? math::atan2(sine, cosine) : geometry::atan_k(space, sine / cosine);
     return {s, geometry::signed_distance(space, line, p.floor), p.z};
   }
 };
@@ -197,7 +198,7 @@ std::vector<PlacedMesh> make_frames(const room::Room& room, double height, const
 
 Result<PlacedMesh> make_beam(const room::Room& room, double height, const Position& from, const Position& to, double width) {
   const Space space = room.space;
-  const double run = geometry::distance(space, from.floor, to.floor), rise = to.z - from.z, length = std::hypot(run, rise),
+  const double run = geometry::distance(space, from.floor, to.floor), rise = to.z - from.z, length = math::hypot(run, rise),
                half = width / 2;
   if (!(length > 1e-12)) return make_error("place.no-beam", "this beam begins where it ends", "give it two different positions");
   Strip strip{space, from.floor, {}, {}, 0};

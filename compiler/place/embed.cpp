@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/geometry/predicates.h"
 #include "compiler/mesh/examine.h"
@@ -31,7 +32,7 @@ Point embedded(Space space, scene::Embedding embedding, const Vector3& p) {
 
 // Whether the embedding is defined and one-to-one out to p.
 bool in_chart(Space space, scene::Embedding embedding, const Vector3& p) {
-  const double r = std::hypot(p.x, p.y);
+  const double r = math::hypot(p.x, p.y);
   if (!(r < 1e15) || !(std::fabs(p.z) < 1e15)) return false;
   if (embedding == scene::Embedding::exponential)
     return r < (space == Space::spherical ? std::numbers::pi : space == Space::hyperbolic ? 30 : 1e15);
@@ -68,7 +69,7 @@ struct PlaneTurn {
 
 PlaneTurn plane_turn(const Angle& angle) {
   const double quarters = angle.radians / (std::numbers::pi / 2), whole = std::round(quarters);
-  if (std::fabs(quarters - whole) > 1e-15 * std::fmax(1, std::fabs(quarters))) return {std::cos(angle.radians), std::sin(angle.radians)};
+  if (std::fabs(quarters - whole) > 1e-15 * std::fmax(1, std::fabs(quarters))) return {math::cos(angle.radians), math::sin(angle.radians)};
   constexpr double kCos[] = {1, 0, -1, 0}, kSin[] = {0, 1, 0, -1};
   const auto k = static_cast<std::size_t>(std::fmod(std::fmod(whole, 4) + 4, 4));
   return {kCos[k], kSin[k]};
@@ -187,7 +188,7 @@ std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, co
   // A little less than what fits, in three digits.
   const auto size = [&](double factor) {
     const double true_size = embedded_length(room.space, object.embedding, factor * low[axis], factor * high[axis]),
-                 digits = std::pow(10, 2 - std::floor(std::log10(true_size)));
+                 digits = math::pow(10, 2 - std::floor(math::log10(true_size)));
     return std::floor(0.998 * true_size * digits) / digits;
   };
   const double here = largest(at, z);

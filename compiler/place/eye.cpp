@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/geometry/predicates.h"
 #include "compiler/place/locate.h"
@@ -109,15 +110,15 @@ Vector3 towards(const geometry::Isometry& room_from_eye, double eye_z, const Pos
 void look_along(Eye& eye, Vector3 direction, double azimuth_if_vertical) {
   if (eye.projection != scene::Projection::perspective) {
     direction.z = 0;
-    if (std::hypot(direction.x, direction.y) < 1e-12) direction = {std::cos(azimuth_if_vertical), std::sin(azimuth_if_vertical), 0};
+    if (math::hypot(direction.x, direction.y) < 1e-12) direction = {math::cos(azimuth_if_vertical), math::sin(azimuth_if_vertical), 0};
   }
   eye.forward = geometry::normalised(direction);
-  const double flat = std::hypot(eye.forward.x, eye.forward.y);
+  const double flat = math::hypot(eye.forward.x, eye.forward.y);
   if (flat > 1e-12) {
     eye.right = {eye.forward.y / flat, -eye.forward.x / flat, 0};
   } else {
     eye.forward = {0, 0, direction.z > 0 ? 1.0 : -1.0};
-    eye.right = {std::sin(azimuth_if_vertical), -std::cos(azimuth_if_vertical), 0};
+    eye.right = {math::sin(azimuth_if_vertical), -math::cos(azimuth_if_vertical), 0};
   }
   eye.up = geometry::cross(eye.right, eye.forward);
 }
@@ -137,7 +138,7 @@ Result<Vector3> direction_of(const scene::Camera& camera, const PlacedRoom& plac
   const auto& look_at = camera.look_at;
   if (const auto* direction = std::get_if<scene::LookDirection>(&look_at.value)) {
     const double a = direction->azimuth.radians, e = direction->elevation.radians;
-    return Vector3{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
+    return Vector3{math::cos(e) * math::cos(a), math::cos(e) * math::sin(a), math::sin(e)};
   }
   Position target{Point{}, eye.z};
   if (const auto* object = std::get_if<scene::LookAtObject>(&look_at.value)) {
@@ -165,8 +166,8 @@ Result<Vector3> direction_of(const scene::Camera& camera, const PlacedRoom& plac
 void roll(Eye& eye, double radians) {
   if (eye.projection != Projection::perspective || radians == 0) return;
   const Vector3 right = eye.right, up = eye.up;
-  eye.right = std::cos(radians) * right - std::sin(radians) * up;
-  eye.up = std::sin(radians) * right + std::cos(radians) * up;
+  eye.right = math::cos(radians) * right - math::sin(radians) * up;
+  eye.up = math::sin(radians) * right + math::cos(radians) * up;
 }
 
 Result<double> focus_distance(const scene::Lens& lens, const PlacedRoom& placed, const Eye& eye) {
@@ -195,7 +196,7 @@ std::string in_the_way_of(const PlacedRoom& placed, const Eye& eye, double radiu
   constexpr int kAround = 16;
   for (int i = 0; i < kAround; ++i) {
     const double a = 2 * kPi * i / kAround;
-    const Vector3 p = radius * (std::cos(a) * eye.right + std::sin(a) * eye.up);
+    const Vector3 p = radius * (math::cos(a) * eye.right + math::sin(a) * eye.up);
     const Position rim{eye.room_from_eye * geometry::point_from_log(eye.room_from_eye.space, {p.x, p.y}), eye.z + p.z};
     if (const PlacedMesh* around = object_around(placed, rim)) return around->name;
   }
@@ -224,15 +225,15 @@ Result<EyeLens> make_lens(const scene::Lens& lens, const PlacedRoom& placed, con
 Vector3 direction_through(const Eye& eye, double x, double y) {
   const double u = 2 * x / eye.width - 1, v = 1 - 2 * y / eye.height, aspect = static_cast<double>(eye.height) / eye.width;
   if (eye.projection == Projection::perspective) {
-    const double t = std::tan(eye.fov.radians / 2);
+    const double t = math::tan(eye.fov.radians / 2);
     return geometry::normalised(eye.forward + (u * t) * eye.right + (v * aspect * t) * eye.up);
   }
   if (eye.projection == Projection::panorama) {
     const double a = kPi * u, e = kPi / 2 * v;
-    return (std::cos(e) * std::cos(a)) * eye.forward + (std::cos(e) * std::sin(a)) * eye.right + std::sin(e) * eye.up;
+    return (math::cos(e) * math::cos(a)) * eye.forward + (math::cos(e) * math::sin(a)) * eye.right + math::sin(e) * eye.up;
   }
   const double a = eye.fov.radians / 2 * u, height = v * aspect * eye.fov.radians / 2;
-  return geometry::normalised(std::cos(a) * eye.forward + std::sin(a) * eye.right + height * eye.up);
+  return geometry::normalised(math::cos(a) * eye.forward + math::sin(a) * eye.right + height * eye.up);
 }
 
 std::optional<std::array<double, 2>> pixel_of(const Eye& eye, const Vector3& direction) {
@@ -240,18 +241,18 @@ std::optional<std::array<double, 2>> pixel_of(const Eye& eye, const Vector3& dir
   const double w = eye.width, h = eye.height;
   if (eye.projection == Projection::perspective) {
     if (!(f > 0)) return std::nullopt;
-    const double t = std::tan(eye.fov.radians / 2) * f;
+    const double t = math::tan(eye.fov.radians / 2) * f;
     return std::array<double, 2>{w / 2 * (1 + r / t), h / 2 - w / 2 * u / t};
   }
-  const double azimuth = std::atan2(r, f), flat = std::hypot(r, f);
+  const double azimuth = math::atan2(r, f), flat = math::hypot(r, f);
   if (eye.projection == Projection::panorama)
-    return std::array<double, 2>{w * (azimuth / (2 * kPi) + 0.5), h * (0.5 - std::atan2(u, flat) / kPi)};
+    return std::array<double, 2>{w * (azimuth / (2 * kPi) + 0.5), h * (0.5 - math::atan2(u, flat) / kPi)};
   if (!(flat > 0)) return std::nullopt;
   return std::array<double, 2>{w * (azimuth / eye.fov.radians + 0.5), h / 2 - w * (u / flat) / eye.fov.radians};
 }
 
 double pixels_per_radian(const Eye& eye) {
-  if (eye.projection == Projection::perspective) return eye.width / 2.0 / std::tan(eye.fov.radians / 2);
+  if (eye.projection == Projection::perspective) return eye.width / 2.0 / math::tan(eye.fov.radians / 2);
   return eye.width / (eye.projection == Projection::panorama ? 2 * kPi : eye.fov.radians);
 }
 

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/geometry/predicates.h"
 
@@ -25,13 +26,13 @@ using geometry::Space;
 /// A length in four digits that is not more than it: what a hint names can be taken as it stands.
 std::string rounded_down(double length) {
   if (!(length > 0) || !std::isfinite(length)) return to_text(length);
-  const double unit = std::pow(10, std::floor(std::log10(length)) - 3);
+  const double unit = math::pow(10, std::floor(math::log10(length)) - 3);
   return to_text(std::floor(length / unit) * unit);
 }
 
 Diagnostic outside_room(const room::Room& room, const Point& x, const SourceSpan& span) {
   const Overhang over = overhang(room, x);
-  const double azimuth = std::atan2(x.y, x.x), r = std::abs(geometry::log_from_point(room.space, x));
+  const double azimuth = math::atan2(x.y, x.x), r = math::abs(geometry::log_from_point(room.space, x));
   return make_error("place.outside-room", fmt::format("this place lies {} beyond wall {}", to_text(over.distance), over.wall + 1),
                     fmt::format("it is {} from the centre; in that direction ({:.4g}deg) the room ends at {}", to_text(r),
                                 azimuth * 180 / std::numbers::pi, rounded_down(reach(room, azimuth))),
@@ -47,7 +48,7 @@ Result<Point> polar(const room::Room& room, double r, double radians, const Sour
   if (room.space == Space::hyperbolic && std::fabs(r) > 300)
     return make_error("place.outside-room", fmt::format("this place is {} from the centre, far outside the room", to_text(r)),
                       fmt::format("in that direction the room ends at {}", rounded_down(reach(room, radians))), span);
-  return geometry::point_from_log(room.space, std::polar(std::fabs(r), r < 0 ? radians + std::numbers::pi : radians));
+  return geometry::point_from_log(room.space, math::polar(std::fabs(r), r < 0 ? radians + std::numbers::pi : radians));
 }
 
 // T_x(x)·T_y(y) applied to the centre: on S² longitude and latitude, in H² Lobachevsky's coordinates.
@@ -80,7 +81,7 @@ Result<Point> toward(const room::Room& room, const scene::AtToward& at, const So
   }
   const int i = at.number - 1;
   const Point goal = at.corner ? room.corners[i].at : room::point_on_wall(room, i, room.walls[i].length / 2);
-  return polar(room, at.distance, std::atan2(goal.y, goal.x), span);
+  return polar(room, at.distance, math::atan2(goal.y, goal.x), span);
 }
 
 // The points at signed distances (da, db) from the lines a and b: none, one or two.
@@ -160,9 +161,9 @@ double reach(const room::Room& room, double azimuth) {
   // On the ray cosκ(r)·O + sinκ(r)·(0, d) the wall's value vanishes at tanκ(r) = −l_w/(l·d).
   double nearest = std::numeric_limits<double>::infinity();
   for (const room::Wall& wall : room.walls) {
-    const double towards = -(wall.line.x * std::cos(azimuth) + wall.line.y * std::sin(azimuth));
+    const double towards = -(wall.line.x * math::cos(azimuth) + wall.line.y * math::sin(azimuth));
     double r = std::numeric_limits<double>::infinity();
-    if (room.space == Space::spherical) r = std::atan2(wall.line.w, towards);
+    if (room.space == Space::spherical) r = math::atan2(wall.line.w, towards);
     else if (towards > 0 && (room.space == Space::euclidean || wall.line.w < towards))
       r = geometry::atan_k(room.space, wall.line.w / towards);
     if (r >= 0) nearest = std::fmin(nearest, r);

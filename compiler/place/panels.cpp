@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/place/rail.h"
 
@@ -59,7 +60,7 @@ double uv_error(Space space, const Net& net, double cell) {
     for (std::size_t i = 0; i < piece.loop.size(); ++i) {
       const Point &p = net.vertices[piece.loop[i].vertex].floor, &q = net.vertices[piece.loop[(i + 1) % piece.loop.size()].vertex].floor;
       const std::complex<double> mean = 0.5 * (geometry::disk_from_point(space, p) + geometry::disk_from_point(space, q));
-      worst = std::fmax(worst, 2 / cell * std::abs(geometry::disk_from_point(space, geometry::midpoint(space, p, q)) - mean));
+      worst = std::fmax(worst, 2 / cell * math::abs(geometry::disk_from_point(space, geometry::midpoint(space, p, q)) - mean));
     }
   return worst;
 }
@@ -70,7 +71,7 @@ void cut_by_spokes(Net& net, double step) {
   const int count = static_cast<int>(std::ceil(std::numbers::pi / step));
   for (int i = 0; i < count; ++i) {
     const double angle = std::numbers::pi * (i + 0.5) / count;
-    Halves halves = cut(Space::spherical, net, net.pieces, {0, -std::sin(angle), std::cos(angle)}, -1'000'000 - i);
+    Halves halves = cut(Space::spherical, net, net.pieces, {0, -math::sin(angle), math::cos(angle)}, -1'000'000 - i);
     net.pieces = std::move(halves.left);
     net.pieces.insert(net.pieces.end(), halves.right.begin(), halves.right.end());
   }
@@ -152,7 +153,7 @@ PlacedMesh level_mesh(const room::Room& room, Net net, double z, bool ceiling, c
 // from the affine one by at most 0.0161·l³ (atanh(x·tanh h) − x·h = −h³(x − x³)/3 + …, h = l/2, |x − x³| ≤ 0.385).
 double texture_step(Space space, const scene::Material& material, const PanelOptions& options) {
   if (space == Space::euclidean || material.pattern != scene::Pattern::texture) return 1e9;
-  return std::fmin(1, std::cbrt(options.texel_error / options.texture_size * material.cell / 0.0161));
+  return std::fmin(1, math::cbrt(options.texel_error / options.texture_size * material.cell / 0.0161));
 }
 
 std::vector<double> with_steps(const std::vector<double>& breaks, double step) {

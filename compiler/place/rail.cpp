@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::place {
 
 using geometry::Point;
@@ -12,7 +14,7 @@ double arc_on_wall(const room::Room& room, int index, const Point& x) {
   const room::Wall& wall = room.walls[index];
   if (room.space != Space::spherical) return std::fmin(geometry::distance(room.space, wall.start, x), wall.length);
   const double c = wall.start.w * x.w + wall.start.x * x.x + wall.start.y * x.y;
-  double s = std::atan2(wall.along.w * x.w + wall.along.x * x.x + wall.along.y * x.y, c);
+  double s = math::atan2(wall.along.w * x.w + wall.along.x * x.x + wall.along.y * x.y, c);
   if (s < -1e-9) s += 2 * std::numbers::pi;
   return std::fmin(std::fmax(s, 0), wall.length);
 }

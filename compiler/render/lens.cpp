@@ -2,6 +2,7 @@
 // realistic camera model for computer graphics, 1995, §2, there with a plane in focus; here it is the sphere at the focus distance, since
 // in curved space distances from the eye are what has a meaning). Lens and focus are geodesic polar coordinates about the eye, so all is
 // worked out in its frame, where both are near the origin or in one direction from it.
+#include "compiler/base/elementary.h"
 #include "compiler/render/lens.h"
 
 #include <cmath>
@@ -37,7 +38,7 @@ std::array<double, 2> lens_point(std::uint64_t seed, std::uint64_t pixel, int k)
   if (a == 0 && b == 0) return {0, 0};
   const bool flat = std::fabs(a) > std::fabs(b);
   const double r = flat ? a : b, angle = flat ? std::numbers::pi / 4 * (b / a) : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
-  return {r * std::cos(angle), r * std::sin(angle)};
+  return {r * math::cos(angle), r * math::sin(angle)};
 }
 
 }  // namespace orbc::render

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/predicates.h"
 #include "compiler/room/interval.h"
 #include "compiler/room/polygon.h"
@@ -94,7 +95,7 @@ double area_bound(const Room& room) {
     const Real turned = x * base.low() - y * det.low();
     y = x * det.low() + y * base.low();
     x = turned;
-    sum += 2 * std::atan2(static_cast<double>(det.low()), static_cast<double>(base.low()));
+    sum += 2 * math::atan2(static_cast<double>(det.low()), static_cast<double>(base.low()));
   }
   if (k == 0) return up((flat - Interval(room.area)).magnitude());
   if (!(std::fabs(sum - room.area) < 1)) return kInfinite;
@@ -133,11 +134,11 @@ Certificate certify(const Room& room) {
 
 bool is_granted(const Room& room, const Certificate& c) {
   // One ulp of a coordinate at distance r moves a point by cosh r ulps, and a line of slope cosh r by as much again.
-  const double size = room.space == Space::hyperbolic ? std::cosh(room.circumradius) : 1;
+  const double size = room.space == Space::hyperbolic ? math::cosh(room.circumradius) : 1;
   const double scale = room.space == Space::euclidean ? room.circumradius : 1;
   const double rounding = 64 * kUlp * size * size;
   double sharpest = 1;
-  for (const Corner& corner : room.corners) sharpest = std::min(sharpest, std::sin(corner.angle));
+  for (const Corner& corner : room.corners) sharpest = std::min(sharpest, math::sin(corner.angle));
   const auto within = [](double value, double explained, double most) { return value <= explained && value <= most; };
   const double count = static_cast<double>(std::max<std::size_t>(room.outline.size(), 4));
   return c.convex && within(c.angle_residual, rounding / sharpest, std::max(1e-2 * sharpest, 16 * kUlp)) &&

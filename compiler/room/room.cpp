@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::room {
 
 using geometry::Point;
@@ -12,13 +14,13 @@ Point point_on_wall(const Room& room, int wall, double s) {
   // Measured from the wall's point nearest to the origin, F: there no coordinate is large, while from a far corner cosκ s·P + sinκ s·V
   // would cancel.
   const Wall& w = room.walls[static_cast<std::size_t>(wall)];
-  const double h = std::hypot(w.line.x, w.line.y);
+  const double h = math::hypot(w.line.x, w.line.y);
   if (h < 1e-8) return geometry::point_along(room.space, w.start, w.along, s);  // an equator has no nearest point
   const double x = w.line.x / h, y = w.line.y / h;
   const Point foot(room.space == Space::euclidean ? 1 : h, -w.line.w * x, -w.line.w * y);
   const Tangent along(0, y, -x);
   const double ahead = w.start.x * along.x + w.start.y * along.y;
-  const double start = room.space == Space::spherical ? std::atan2(ahead, foot.w * w.start.w + foot.x * w.start.x + foot.y * w.start.y)
+  const double start = room.space == Space::spherical ? math::atan2(ahead, foot.w * w.start.w + foot.x * w.start.x + foot.y * w.start.y)
                                                       : geometry::asin_k(room.space, ahead);
   return geometry::point_along(room.space, foot, along, start + s);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/room/polygon.h"
 
 namespace orbc::room {
@@ -37,7 +38,7 @@ struct CircleEquation {
       const Real d = g.sin_half * g.sin_half - k * u;
       Real root = d > 0 ? sqrt(d) : Real(0);
       if (beyond && i == narrowest) root = -root;
-      sum += g.count * std::atan2(static_cast<double>(g.cos_half), static_cast<double>(root));
+      sum += g.count * math::atan2(static_cast<double>(g.cos_half), static_cast<double>(root));
       if (root != 0) slope += g.count * k * g.cos_half / (2 * root * (1 - k * u));
       for (int j = 0; j < g.count; ++j) {
         const Real turned = x * root - y * g.cos_half;
@@ -63,7 +64,7 @@ struct RoughEquation {
       const double s = static_cast<double>(g.sin_half), c = static_cast<double>(g.cos_half), d = s * s - fine.k * u;
       double root = d > 0 ? std::sqrt(d) : 0;
       if (fine.beyond && i == fine.narrowest) root = -root;
-      value.excess += g.count * std::atan2(c, root);
+      value.excess += g.count * math::atan2(c, root);
       if (root != 0) value.slope += g.count * fine.k * c / (2 * root * (1 - fine.k * u));
     }
     return value;

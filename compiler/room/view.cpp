@@ -1,3 +1,4 @@
+#include "compiler/base/elementary.h"
 #include "compiler/room/view.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double kBeside = 20;      // degrees between the corner and the view: a quarter of a usual field of view
 
-double azimuth(const geometry::Point& p) { return std::atan2(p.y, p.x) * 180 / std::numbers::pi; }
+double azimuth(const geometry::Point& p) { return math::atan2(p.y, p.x) * 180 / std::numbers::pi; }
 
 }  // namespace
 

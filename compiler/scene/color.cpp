@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::scene {
 namespace {
 
@@ -53,11 +55,11 @@ int hex_digit(char c) {
 
 }  // namespace
 
-double decode_srgb(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
+double decode_srgb(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : math::pow((encoded + 0.055) / 1.055, 2.4); }
 
 double encode_srgb(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * math::pow(x, 1 / 2.4) - 0.055;
 }
 
 Color from_srgb(double r, double g, double b) { return {decode_srgb(r), decode_srgb(g), decode_srgb(b)}; }

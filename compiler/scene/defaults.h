@@ -18,12 +18,12 @@ namespace orbc::scene {
 /// A frame's looks: gilt wood.
 [[nodiscard]] Frame default_frame();
 
-/// How far the mirrors are followed when the author does not say. Flat rooms: 12 bounces. Spherical ones: as many as the longest word of the
-/// group has walls, at least 12, so that every copy is seen from anywhere (a path of length π meets all the group's mirrors, no copy takes
-/// more); of groups of more than 1000 elements as many as give at most 1000 copies. Hyperbolic ones, where copies grow exponentially: as
-/// many as give at most 200 copies, but at least 1.
-/// In:    `level_mirrors`: how many of floor and ceiling are mirrors; in H² the copies on all storeys count.
-/// Exact: from the growth series. Hyperbolic rooms with real corners take the bounces of the orbifold with the next larger integers, whose
+/// How far the mirrors are followed when the author does not say. Flat rooms: 12 bounces. Spherical ones: as many as the longest word of
+/// the group has walls, at least 12, so that every copy is seen from anywhere (a path of length π meets all the group's mirrors, no copy
+/// takes more); of groups of more than 1000 elements as many as give at most 1000 copies. Hyperbolic ones, where copies grow exponentially:
+/// as many as give at most 200 copies, but at least 1. In:    `level_mirrors`: how many of floor and ceiling are mirrors; in H² the copies
+/// on all storeys count. Exact: from the growth series. Hyperbolic rooms with real corners take the bounces of the orbifold with the next
+/// larger integers, whose
 ///        copies grow faster; what the eye sees of a room that does not tile is cut into up to three times as many copies.
 [[nodiscard]] int default_max_bounces(const notation::Orbifold& orbifold, int level_mirrors = 0);
 /// The scene that `orbc: 1` and the notation alone describe.

@@ -62,7 +62,8 @@ void drop_unused(const Fields& room, const RoomFacts& facts, Shape& shape) {
     room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius"),
         shape.scale = standard.scale;
   if (!facts.rectangle) room.no_effect("aspect", "only `*2222` may be stretched"), shape.aspect = standard.aspect;
-  if (!facts.orbifold.strip) room.no_effect("length", "it belongs to the strips `**` and `*22∞`"), shape.strip_length = standard.strip_length;
+  if (!facts.orbifold.strip)
+    room.no_effect("length", "it belongs to the strips `**` and `*22∞`"), shape.strip_length = standard.strip_length;
   if (shape.kind != ShapeKind::paper) {
     for (const char* key : {"cut", "cuts"}) room.no_effect(key, "it belongs to `shape: paper`");
     shape.cuts.clear();

@@ -1,3 +1,4 @@
+#include "compiler/base/elementary.h"
 #include "compiler/scene/starter.h"
 
 #include <fmt/format.h>
@@ -120,8 +121,8 @@ std::string aligned(const std::string& text) {
 // the incircle.
 std::string polar(const Stage& stage, const Spot& spot) {
   const double x = stage.shift + stage.unit * spot.ahead, y = stage.unit * spot.left;
-  const int direction = static_cast<int>(std::lround(stage.view + std::atan2(y, x) * 180 / std::numbers::pi));
-  return fmt::format("[{}, {}deg]", shown(std::hypot(x, y)), (direction % 360 + 360) % 360);
+  const int direction = static_cast<int>(std::lround(stage.view + math::atan2(y, x) * 180 / std::numbers::pi));
+  return fmt::format("[{}, {}deg]", shown(math::hypot(x, y)), (direction % 360 + 360) % 360);
 }
 
 Stage stage_of(const StarterRoom& room) {

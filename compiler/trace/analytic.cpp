@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/trace/arc.h"
 
 namespace orbc::trace {
@@ -34,7 +35,7 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
                            ? std::fabs(largest) == kEndless ? (largest > 0 ? 0 : std::numbers::pi) : arc_of_circle(largest, 1)
                        : space == Space::euclidean ? 1 / largest
                        : largest == kEndless       ? 0
-                                                   : 0.5 * std::log((largest + 1) / (largest - 1));
+                                                   : 0.5 * math::log((largest + 1) / (largest - 1));
       exit = {s / ray.c, first};
     }
   }
@@ -54,9 +55,9 @@ struct Place {
 
 Place advanced(Space space, const Ray& ray, double s) {
   double cosine = 1, sine = s;
-  if (space == Space::spherical) cosine = std::cos(s), sine = std::sin(s);
+  if (space == Space::spherical) cosine = math::cos(s), sine = math::sin(s);
   if (space == Space::hyperbolic) {
-    const double e = std::exp(s);
+    const double e = math::exp(s);
     cosine = 0.5 * (e + 1 / e);
     sine = 0.5 * (e - 1 / e);
   }
@@ -118,8 +119,8 @@ double arc_on_wall(Space space, const room::Wall& wall, const Point& x) {
   if (space == Space::euclidean) return (x.x - wall.start.x) * wall.along.x + (x.y - wall.start.y) * wall.along.y;
   const double p = wall.start.w * x.w + k * (wall.start.x * x.x + wall.start.y * x.y);
   const double v = k * wall.along.w * x.w + wall.along.x * x.x + wall.along.y * x.y;
-  if (space == Space::hyperbolic) return std::atanh(v / p);
-  const double s = std::atan2(v, p);
+  if (space == Space::hyperbolic) return math::atanh(v / p);
+  const double s = math::atan2(v, p);
   return s < 0 && wall.length > std::numbers::pi + 1e-6 ? s + 2 * std::numbers::pi : s;
 }
 

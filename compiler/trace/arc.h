@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/point.h"
 
 namespace orbc::trace {
@@ -39,7 +40,7 @@ template <int kCurvature>
 template <geometry::Space kSpace>
 [[nodiscard]] inline double arc_of(double p, double v) {
   if constexpr (kSpace == geometry::Space::euclidean) return v / p;
-  if constexpr (kSpace == geometry::Space::hyperbolic) return 0.5 * std::log((p + v) / (p - v));
+  if constexpr (kSpace == geometry::Space::hyperbolic) return 0.5 * math::log((p + v) / (p - v));
   return arc_of_circle(p, v);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/base/elementary.h"
 #include "compiler/trace/bvh.h"
 
 namespace orbc::trace {
@@ -208,7 +209,7 @@ struct Builder {
       double size = 0;
       for (int i = 0; i < 3; ++i) {
         const geometry::Vector3 edge = at[i] - at[(i + 1) % 3];
-        size = std::max({size, std::hypot(edge.x, edge.y), std::fabs(edge.z)});
+        size = std::max({size, math::hypot(edge.x, edge.y), std::fabs(edge.z)});
       }
       block.size[lane] = used ? std::max(up(size), 1e-9f) : 1.0f;  // larger is safe; products with none would be subnormal
     }

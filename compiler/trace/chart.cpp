@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "compiler/base/check.h"
+#include "compiler/base/elementary.h"
 
 namespace orbc::trace {
 
@@ -90,7 +91,7 @@ double tan_by_arc(Space space, double y) {  // tanκ(√y)/√y
 
 double arc_by_tan(Space space, double y) {  // atanκ(√y)/√y
   const double t = std::sqrt(y);
-  return t < 1e-4 ? 1 - geometry::curvature(space) * y / 3 : (space == Space::spherical ? std::atan(t) : std::atanh(t)) / t;
+  return t < 1e-4 ? 1 - geometry::curvature(space) * y / 3 : (space == Space::spherical ? math::atan(t) : math::atanh(t)) / t;
 }
 
 /// Odd polynomial through the Chebyshev nodes of y = a² ∈ [0, end²] of `by`(y) = f(a)/a; Newton's form expanded into powers.
@@ -99,7 +100,7 @@ void fit(Space space, const By& by, double end, int terms, double out[7]) {
   double node[7], difference[7];
   const double top = end * end;
   for (int i = 0; i < terms; ++i) {
-    node[i] = top * 0.5 * (1 - std::cos((2 * i + 1) * 3.14159265358979 / (2 * terms)));
+    node[i] = top * 0.5 * (1 - math::cos((2 * i + 1) * 3.14159265358979 / (2 * terms)));
     difference[i] = by(space, node[i]);
   }
   for (int level = 1; level < terms; ++level)
@@ -172,7 +173,7 @@ void choose_arc(Space space, Chart& chart) {
 /// curve leaves its chord by at most |z″|/8.
 void add_leaf_bounds(Space space, Chart& chart) {
   choose_arc(space, chart);
-  const double ratio = space == Space::spherical ? 1 / std::cos(chart.radius) : std::cosh(chart.radius);
+  const double ratio = space == Space::spherical ? 1 / math::cos(chart.radius) : math::cosh(chart.radius);
   chart.ratio = static_cast<float>(1.001 * ratio);
   const double end = chart.tangent, last_slope = 1 / (1 + geometry::curvature(space) * end * end);
   chart.last_slope = static_cast<float>(last_slope);
@@ -213,14 +214,14 @@ Chart make_chart(Space space, const ChartPlan& plan, const Soup& soup) {
     for (const std::uint32_t i : soup.triangles[t]) {
       const Vertex& v = soup.vertices[i];
       const Ambient x = chart.chart_from_room * Ambient{v.w, v.x, v.y};
-      const double rho = std::hypot(x.x, x.y);
+      const double rho = math::hypot(x.x, x.y);
       chart.radius = std::max(chart.radius, geometry::arc_k(space, x.w, rho));
       chart.extent = std::max(chart.extent, static_cast<float>(1.000001 * rho / x.w));
       chart.largest_w = std::max(chart.largest_w, static_cast<float>(1.000001 * x.w));
     }
   chart.radius = std::max(chart.radius * 1.000001, 1e-3);
   chart.tangent = geometry::tan_k(space, chart.radius);
-  chart.nearest_foot2 = std::pow(geometry::cos_k(space, chart.radius * 1.0001), 2);
+  chart.nearest_foot2 = math::pow(geometry::cos_k(space, chart.radius * 1.0001), 2);
   choose_polynomial(space, chart.radius, chart);
   if (space != Space::euclidean) add_leaf_bounds(space, chart);
   return chart;

@@ -6,12 +6,12 @@
 #define ORBC_TRACE_JUDGE_INL_H
 #endif
 
-#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 #include <cmath>
 
 #include "compiler/trace/chart_ray.h"
+#include "compiler/trace/unfused-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace orbc::trace::HWY_NAMESPACE {
@@ -82,20 +82,15 @@ HWY_INLINE Corner pick(M first, const Corner& a, const Corner& b) {
           hn::IfThenElse(first, a.by_w, b.by_w)};
 }
 
-/// 1/x to about 2 ulp: a division would be waited for.
-HWY_INLINE V by(V x) {
-  const D d;
-  const V r = hn::ApproximateReciprocal(x);
-  return hn::Mul(r, hn::NegMulAdd(x, r, hn::Set(d, 2.0f)));
-}
+HWY_INLINE V by(V x) { return hn::Div(hn::Set(D(), 1.0f), x); }
 
 /// In charts that are too wide for a polynomial.
 template <Space kSpace>
 HWY_NOINLINE V wide_arc(V t) {
   const D d;
-  if constexpr (kSpace == Space::spherical) return hn::Atan(d, t);
+  if constexpr (kSpace == Space::spherical) return arc_around(d, t, hn::Set(d, 1.0f));
   const V one = hn::Set(d, 1.0f), inside = hn::Min(hn::Set(d, 0.9999f), hn::Max(hn::Set(d, -0.9999f), t));
-  return hn::Mul(hn::Set(d, 0.5f), hn::Log(d, hn::Div(hn::Add(one, inside), hn::Sub(one, inside))));
+  return hn::Mul(hn::Set(d, 0.5f), log_of(d, hn::Div(hn::Add(one, inside), hn::Sub(one, inside))));
 }
 
 /// atanκ(t), to Chart::arc_error.
@@ -105,10 +100,10 @@ HWY_INLINE V arc(const Chart& chart, V t) {
   if constexpr (kSpace == Space::euclidean) return t;
   const auto c = [&](int k) { return hn::Set(d, chart.arc_poly[k]); };
   const V y = hn::Mul(t, t);
-  if (HWY_LIKELY(chart.arc_terms == 4)) return hn::Mul(t, hn::MulAdd(y, hn::MulAdd(y, hn::MulAdd(y, c(3), c(2)), c(1)), c(0)));
+  if (HWY_LIKELY(chart.arc_terms == 4)) return hn::Mul(t, mul_add(y, mul_add(y, mul_add(y, c(3), c(2)), c(1)), c(0)));
   if (chart.arc_terms == 7) {
-    const V high = hn::MulAdd(y, hn::MulAdd(y, hn::MulAdd(y, c(6), c(5)), c(4)), c(3));
-    return hn::Mul(t, hn::MulAdd(y, hn::MulAdd(y, hn::MulAdd(y, high, c(2)), c(1)), c(0)));
+    const V high = mul_add(y, mul_add(y, mul_add(y, c(6), c(5)), c(4)), c(3));
+    return hn::Mul(t, mul_add(y, mul_add(y, mul_add(y, high, c(2)), c(1)), c(0)));
   }
   return wide_arc<kSpace>(t);
 }
@@ -120,11 +115,11 @@ HWY_INLINE Cut cut_edge(const ChartRay& ray, V size, const Corner& i, const Corn
   const V by_sum = by(hn::Add(hi, hj));
   Cut cut;
   cut.blur = hn::Mul(hn::Mul(hn::Set(d, 4 * ray.h_error), by_sum), size);
-  cut.t = hn::Mul(by_sum, hn::MulAdd(hj, i.t, hn::Mul(hi, j.t)));
-  cut.t_error = hn::MulAdd(cut.blur, hn::Set(d, ray.stretch), hn::Set(d, ray.t_error));
-  cut.z = hn::MulAdd(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
+  cut.t = hn::Mul(by_sum, mul_add(hj, i.t, hn::Mul(hi, j.t)));
+  cut.t_error = mul_add(cut.blur, hn::Set(d, ray.stretch), hn::Set(d, ray.t_error));
+  cut.z = mul_add(hj, i.z_by_w, hn::Mul(hi, j.z_by_w));
   if constexpr (kSpace != Space::euclidean) {
-    const V w = hn::MulAdd(hj, i.by_w, hn::Mul(hi, j.by_w));
+    const V w = mul_add(hj, i.by_w, hn::Mul(hi, j.by_w));
     cut.z = hn::Mul(cut.z, by(w));
     cut.w = hn::Mul(w, by_sum);
   } else {
@@ -161,8 +156,8 @@ HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& r
     Corner corner[3];
     for (int i = 0; i < 3; ++i) {
       const V x = hn::Load(d, block.x[i] + lane), y = hn::Load(d, block.y[i] + lane);
-      corner[i].t = hn::MulAdd(x, hn::Set(d, ray.t_x), hn::Mul(y, hn::Set(d, ray.t_y)));
-      corner[i].h = hn::MulAdd(x, hn::Set(d, ray.h_x), hn::MulSub(y, hn::Set(d, ray.h_y), hn::Set(d, ray.h_0)));
+      corner[i].t = mul_add(x, hn::Set(d, ray.t_x), hn::Mul(y, hn::Set(d, ray.t_y)));
+      corner[i].h = mul_add(x, hn::Set(d, ray.h_x), mul_sub(y, hn::Set(d, ray.h_y), hn::Set(d, ray.h_0)));
       corner[i].z_by_w = hn::Load(d, block.z_by_w[i] + lane);
       corner[i].by_w = hn::Load(d, block.by_w[i] + lane);
     }
@@ -181,28 +176,28 @@ HWY_INLINE void judge(const Block8& block, const Chart& chart, const ChartRay& r
     const V nearer = hn::Min(hn::Sub(one.t, one.t_error), hn::Sub(two.t, two.t_error));
     const M late = hn::Gt(nearer, hn::Set(d, ray.reach));
     const V rise = hn::Set(d, ray.rise), run = hn::Set(d, ray.run), level = hn::Set(d, ray.level);
-    const V f1 = hn::Sub(hn::NegMulAdd(run, arc<kSpace>(chart, one.t), hn::Mul(rise, one.z)), level);
-    const V f2 = hn::Sub(hn::NegMulAdd(run, arc<kSpace>(chart, two.t), hn::Mul(rise, two.z)), level);
+    const V f1 = hn::Sub(neg_mul_add(run, arc<kSpace>(chart, one.t), hn::Mul(rise, one.z)), level);
+    const V f2 = hn::Sub(neg_mul_add(run, arc<kSpace>(chart, two.t), hn::Mul(rise, two.z)), level);
     V steep = hn::Set(d, ray.run_size), bend = zero;  // |m| times the largest slope of atanκ
     if constexpr (kSpace != Space::euclidean) {
       V sharp = hn::Set(d, ray.run_size * (0.66f / 8));  // |atan″| ≤ 0.65
       const V dt = hn::Abs(hn::Sub(one.t, two.t));
       if constexpr (kSpace == Space::hyperbolic) {  // atanh′ = 1/(1 − t²), atanh″ = 2t/(1 − t²)² < 2/(1 − t²)²
-        const V most = hn::Max(hn::Abs(one.t), hn::Abs(two.t)), slope = by(hn::NegMulAdd(most, most, hn::Set(d, 1.0f)));
+        const V most = hn::Max(hn::Abs(one.t), hn::Abs(two.t)), slope = by(neg_mul_add(most, most, hn::Set(d, 1.0f)));
         sharp = hn::Mul(hn::Mul(hn::Set(d, ray.run_size * (2.2f / 8)), most), hn::Mul(slope, slope));
         steep = hn::Mul(hn::Set(d, 1.05f * ray.run_size), slope);
       }
       const V dz = hn::Abs(hn::Sub(one.z, two.z)), dw = hn::Abs(hn::Sub(one.w, two.w));
-      bend = hn::MulAdd(hn::Mul(dt, dt), sharp, hn::Mul(hn::Mul(dz, dw), hn::Set(d, ray.rise * chart.bend_of_height)));
+      bend = mul_add(hn::Mul(dt, dt), sharp, hn::Mul(hn::Mul(dz, dw), hn::Set(d, ray.rise * chart.bend_of_height)));
     }
     const V level_error = hn::Set(d, ray.level_error), rise_blur = hn::Set(d, ray.rise_blur);
-    const V e1 = hn::MulAdd(steep, one.t_error, hn::MulAdd(rise_blur, one.blur, level_error));
-    const V e2 = hn::MulAdd(steep, two.t_error, hn::MulAdd(rise_blur, two.blur, level_error));
+    const V e1 = mul_add(steep, one.t_error, mul_add(rise_blur, one.blur, level_error));
+    const V e2 = mul_add(steep, two.t_error, mul_add(rise_blur, two.blur, level_error));
     const V least = hn::Min(hn::Sub(hn::Abs(f1), e1), hn::Sub(hn::Abs(f2), e2));
     const M signs_sure = hn::Gt(least, zero), opposite = hn::Lt(hn::Mul(f1, f2), zero);
     M beside = hn::AndNot(opposite, signs_sure), met = hn::And(opposite, signs_sure);
     if constexpr (kSpace != Space::euclidean) {
-      const M steady = hn::Gt(hn::Abs(hn::Sub(f1, f2)), hn::MulAdd(hn::Set(d, 4.0f), bend, hn::Add(e1, e2)));
+      const M steady = hn::Gt(hn::Abs(hn::Sub(f1, f2)), mul_add(hn::Set(d, 4.0f), bend, hn::Add(e1, e2)));
       beside = hn::And(beside, hn::Or(steady, hn::Gt(least, bend)));
       met = hn::And(met, steady);
     }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/trace/arc.h"
 #include "compiler/trace/intersect.h"
 
@@ -72,9 +73,9 @@ struct Strip {
     if (std::fabs(over) < 0.03125 * under)
       to.s = from.s + small_arc<kCurvature>(over / under);
     else if constexpr (kSpace == Space::spherical)
-      to.s = from.s + std::atan2(over, under);
+      to.s = from.s + math::atan2(over, under);
     else
-      to.s = from.s + std::atanh(over / under);
+      to.s = from.s + math::atanh(over / under);
     return to;
   }
   /// The same for a step that is small: two terms of the arc suffice, else the check of the result fails.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::trace {
 
 using geometry::Ambient;
@@ -27,7 +29,7 @@ Ray ray_from(Space space, const Position& from, const Direction& d) {
   ray.z = from.z;
   const double horizontal = std::sqrt(std::max(0.0, inner(space, {d.floor, 0}, {d.floor, 0})));
   const double square = horizontal * horizontal + d.z * d.z;
-  const double length = square > 1e-200 && square < 1e200 ? std::sqrt(square) : std::hypot(horizontal, d.z);
+  const double length = square > 1e-200 && square < 1e200 ? std::sqrt(square) : math::hypot(horizontal, d.z);
   if (horizontal < 1e-150 * length || horizontal == 0) {
     ray.along = any_tangent(space, ray.at);
     ray.c = 0;
@@ -44,7 +46,7 @@ Segment segment_between(Space space, const Position& from, const Position& to) {
   const double s = geometry::distance(space, from.floor, to.floor);
   const double dz = to.z - from.z;
   Segment segment;
-  segment.length = std::hypot(s, dz);
+  segment.length = math::hypot(s, dz);
   segment.ray.at = from.floor;
   segment.ray.z = from.z;
   if (s < 1e-15) {

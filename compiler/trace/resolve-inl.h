@@ -7,10 +7,10 @@
 #define ORBC_TRACE_RESOLVE_INL_H
 #endif
 
-#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 #include "compiler/trace/meet.h"
+#include "compiler/trace/unfused-inl.h"
 #include "compiler/trace/walk.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +23,7 @@ using V4 = hn::Vec<D4>;
 struct Triple {
   V4 w, x, y;
 };
-HWY_INLINE V4 dot(const Triple& a, const Triple& b) { return hn::MulAdd(a.w, b.w, hn::MulAdd(a.x, b.x, hn::Mul(a.y, b.y))); }
+HWY_INLINE V4 dot(const Triple& a, const Triple& b) { return mul_add(a.w, b.w, mul_add(a.x, b.x, hn::Mul(a.y, b.y))); }
 
 /// Inputs of four, side by side.
 struct alignas(64) Quad {
@@ -37,10 +37,8 @@ template <geometry::Space kSpace>
 HWY_INLINE V4 arc4(V4 p, V4 v) {
   const D4 d;
   if constexpr (kSpace == geometry::Space::euclidean) return hn::Div(v, p);
-  if constexpr (kSpace == geometry::Space::hyperbolic) return hn::Mul(hn::Set(d, 0.5), hn::Log(d, hn::Div(hn::Add(p, v), hn::Sub(p, v))));
-  const V4 a = hn::Abs(v), b = hn::Abs(p), s = hn::Atan(d, hn::Div(hn::Min(a, b), hn::Max(a, b)));
-  const V4 octant = hn::IfThenElse(hn::Gt(a, b), hn::Sub(hn::Set(d, exact::kPi / 2), s), s);
-  return hn::CopySign(hn::IfThenElse(hn::Lt(p, hn::Zero(d)), hn::Sub(hn::Set(d, exact::kPi), octant), octant), v);
+  if constexpr (kSpace == geometry::Space::hyperbolic) return hn::Mul(hn::Set(d, 0.5), log_of(d, hn::Div(hn::Add(p, v), hn::Sub(p, v))));
+  return arc_around(d, v, p);
 }
 
 template <geometry::Space kSpace>
@@ -51,10 +49,10 @@ HWY_INLINE void resolve_four(Quad& q) {
     const auto load = [&](const double* from) { return hn::Load(d, from + i); };
     const Triple p{load(q.ray[0]), load(q.ray[1]), load(q.ray[2])}, v{load(q.ray[3]), load(q.ray[4]), load(q.ray[5])};
     const V4 z_ray = load(q.ray[6]), c = load(q.ray[7]), m = load(q.ray[8]), kappa = hn::Set(d, k);
-    const Triple side{hn::MulSub(p.x, v.y, hn::Mul(p.y, v.x)), hn::MulSub(p.y, v.w, hn::Mul(p.w, v.y)),
-                      hn::MulSub(p.w, v.x, hn::Mul(p.x, v.w))};
+    const Triple side{mul_sub(p.x, v.y, hn::Mul(p.y, v.x)), mul_sub(p.y, v.w, hn::Mul(p.w, v.y)),
+                      mul_sub(p.w, v.x, hn::Mul(p.x, v.w))};
     const Triple forward{p.w, hn::Mul(kappa, p.x), hn::Mul(kappa, p.y)};
-    const Triple sideward{kSpace == geometry::Space::euclidean ? hn::Neg(hn::MulAdd(p.x, v.x, hn::Mul(p.y, v.y))) : hn::Mul(kappa, v.w),
+    const Triple sideward{kSpace == geometry::Space::euclidean ? hn::Neg(mul_add(p.x, v.x, hn::Mul(p.y, v.y))) : hn::Mul(kappa, v.w),
                           v.x, v.y};
     V4 h[3], pp[3], vv[3], z[3];
     for (int j = 0; j < 3; ++j) {
@@ -71,30 +69,30 @@ HWY_INLINE void resolve_four(Quad& q) {
     const auto pick = [&](auto mask, const V4* of, int other) { return hn::IfThenElse(mask, of[0], of[other]); };
     const V4 ha = hn::Abs(pick(to1, h, 2)), hb = hn::Abs(pick(to2, h, 1)), h1 = hn::Abs(h[1]), h2 = hn::Abs(h[2]);
     const V4 wa = hn::Div(ha, hn::Add(ha, h1)), wb = hn::Div(hb, hn::Add(hb, h2));  // weights of corners 1 and 2
-    const auto mix = [&](V4 from, V4 to, V4 w) { return hn::MulAdd(w, hn::Sub(to, from), from); };
+    const auto mix = [&](V4 from, V4 to, V4 w) { return mul_add(w, hn::Sub(to, from), from); };
     const V4 pa = mix(pick(to1, pp, 2), pp[1], wa), va = mix(pick(to1, vv, 2), vv[1], wa), za = mix(pick(to1, z, 2), z[1], wa);
     const V4 dp = hn::Sub(mix(pick(to2, pp, 1), pp[2], wb), pa), dv = hn::Sub(mix(pick(to2, vv, 1), vv[2], wb), va);
     const V4 dz = hn::Sub(mix(pick(to2, z, 1), z[2], wb), za);
-    const V4 twist = hn::MulSub(pa, dv, hn::Mul(va, dp));
-    V4 u = load(q.guess), pu = hn::MulAdd(u, dp, pa), vu = hn::MulAdd(u, dv, va), s = arc4<kSpace>(pu, vu);
-    const auto value = [&] { return hn::MulAdd(c, hn::Sub(z_ray, hn::MulAdd(u, dz, za)), hn::Mul(m, s)); };
-    const V4 speed = hn::Div(twist, hn::MulAdd(pu, pu, hn::Mul(kappa, hn::Mul(vu, vu))));
-    const V4 by_slope = hn::Div(one, hn::MulSub(m, speed, hn::Mul(c, dz)));
+    const V4 twist = mul_sub(pa, dv, hn::Mul(va, dp));
+    V4 u = load(q.guess), pu = mul_add(u, dp, pa), vu = mul_add(u, dv, va), s = arc4<kSpace>(pu, vu);
+    const auto value = [&] { return mul_add(c, hn::Sub(z_ray, mul_add(u, dz, za)), hn::Mul(m, s)); };
+    const V4 speed = hn::Div(twist, mul_add(pu, pu, hn::Mul(kappa, hn::Mul(vu, vu))));
+    const V4 by_slope = hn::Div(one, mul_sub(m, speed, hn::Mul(c, dz)));
     V4 g = value();
     for (int step = 0; step < (kSpace == geometry::Space::euclidean ? 1 : 2); ++step) {  // E²: linear
       const V4 du = hn::Neg(hn::Mul(g, by_slope)), p_old = pu, v_old = vu;
       u = hn::Add(u, du);
-      pu = hn::MulAdd(u, dp, pa);
-      vu = hn::MulAdd(u, dv, va);
-      const V4 x = hn::Div(hn::Mul(du, twist), hn::MulAdd(p_old, pu, hn::Mul(kappa, hn::Mul(v_old, vu))));
-      s = hn::Add(s, hn::NegMulAdd(hn::Mul(hn::Set(d, k / 3), x), hn::Mul(x, x), x));
+      pu = mul_add(u, dp, pa);
+      vu = mul_add(u, dv, va);
+      const V4 x = hn::Div(hn::Mul(du, twist), mul_add(p_old, pu, hn::Mul(kappa, hn::Mul(v_old, vu))));
+      s = hn::Add(s, neg_mul_add(hn::Mul(hn::Set(d, k / 3), x), hn::Mul(x, x), x));
       g = value();
     }
     const V4 rest = hn::Sub(one, u);
     // Weights of corners 1 and 2: their own edges', and what the other edge gives them as its far corner.
-    const V4 b1 = hn::MulAdd(rest, wa, hn::IfThenElseZero(hn::Not(to2), hn::Mul(u, hn::Sub(one, wb))));
-    const V4 b2 = hn::MulAdd(u, wb, hn::IfThenElseZero(hn::Not(to1), hn::Mul(rest, hn::Sub(one, wa))));
-    hn::Store(hn::MulAdd(c, s, hn::Mul(m, hn::Sub(hn::MulAdd(u, dz, za), z_ray))), d, q.t + i);
+    const V4 b1 = mul_add(rest, wa, hn::IfThenElseZero(hn::Not(to2), hn::Mul(u, hn::Sub(one, wb))));
+    const V4 b2 = mul_add(u, wb, hn::IfThenElseZero(hn::Not(to1), hn::Mul(rest, hn::Sub(one, wa))));
+    hn::Store(mul_add(c, s, hn::Mul(m, hn::Sub(mul_add(u, dz, za), z_ray))), d, q.t + i);
     hn::Store(b1, d, q.b1 + i);
     hn::Store(b2, d, q.b2 + i);
     hn::Store(g, d, q.g + i);

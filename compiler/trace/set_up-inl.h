@@ -9,10 +9,10 @@
 #define ORBC_TRACE_SET_UP_INL_H
 #endif
 
-#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 #include "compiler/trace/chart_ray.h"
+#include "compiler/trace/unfused-inl.h"
 #include "compiler/trace/walk.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -90,14 +90,9 @@ HWY_INLINE void find_arcs(const Feet& feet, std::size_t count, float s0[8]) {
     if constexpr (kSpace == Space::euclidean) {
       hn::Store(over, d, s0 + i);
     } else if constexpr (kSpace == Space::hyperbolic) {
-      hn::Store(hn::Mul(hn::Set(d, 0.5f), hn::Log(d, over)), d, s0 + i);
+      hn::Store(hn::Mul(hn::Set(d, 0.5f), log_of(d, over)), d, s0 + i);
     } else {
-      const auto under = hn::DemoteTo(d, hn::Load(dd, feet.under + i)), a = hn::Abs(over), b = hn::Abs(under);
-      const auto steep = hn::Gt(a, b);
-      const auto s = hn::Atan(d, hn::Div(hn::Min(a, b), hn::Max(a, b)));
-      const auto octant = hn::IfThenElse(steep, hn::Sub(hn::Set(d, 1.57079633f), s), s);
-      const auto half = hn::IfThenElse(hn::Lt(under, hn::Zero(d)), hn::Sub(hn::Set(d, 3.14159265f), octant), octant);
-      hn::Store(hn::CopySign(half, over), d, s0 + i);
+      hn::Store(arc_around(d, over, hn::DemoteTo(d, hn::Load(dd, feet.under + i))), d, s0 + i);
     }
   }
 }
@@ -135,12 +130,12 @@ HWY_INLINE void set_up(const Walk& walk, std::size_t first, std::size_t count, C
       const auto most = hn::Set(d, static_cast<float>(a == 2 ? kSteep : kFlat));
       const auto q = hn::Min(most, hn::Max(hn::Neg(most), hn::Div(hn::Load(d, num[a] + i), hn::Load(d, den[a] + i))));
       const auto at = hn::Load(d, where[a] + i);
-      const auto pad = hn::CopySign(hn::MulAdd(hn::Set(d, 16 * ulp), hn::Abs(at), hn::Set(d, a == 2 ? margin_z : margin)), q);
+      const auto pad = hn::CopySign(mul_add(hn::Set(d, 16 * ulp), hn::Abs(at), hn::Set(d, a == 2 ? margin_z : margin)), q);
       hn::Store(q, d, scale[a] + i);
       hn::Store(hn::Mul(hn::Add(at, pad), q), d, near_offset[a] + i);
       hn::Store(hn::Mul(hn::Sub(at, pad), q), d, far_offset[a] + i);
     }
-    hn::Store(hn::MulSub(hn::Load(d, feet.ex + i), hn::Load(d, feet.cy + i), hn::Mul(hn::Load(d, feet.ey + i), hn::Load(d, feet.cx + i))),
+    hn::Store(mul_sub(hn::Load(d, feet.ex + i), hn::Load(d, feet.cy + i), hn::Mul(hn::Load(d, feet.ey + i), hn::Load(d, feet.cx + i))),
               d, h_0 + i);
   }
   const float beyond = static_cast<float>(chart.radius * 1.0001 + 1e-6);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "compiler/base/check.h"
+#include "compiler/base/elementary.h"
 #include "compiler/mesh/image.h"
 #include "exporters/gltf/json.h"
 #include "exporters/gltf/layout.h"
@@ -65,11 +66,11 @@ void write_camera(Json& json, const Product& product) {
   const double aspect = static_cast<double>(eye.width) / eye.height;
   // What glTF has no camera for gets the nearest perspective; the extras carry the truth.
   double half = 1;
-  if (eye.projection == scene::Projection::perspective) half = std::tan(eye.fov.radians / 2) / aspect;
+  if (eye.projection == scene::Projection::perspective) half = math::tan(eye.fov.radians / 2) / aspect;
   if (eye.projection == scene::Projection::cylinder) half = eye.fov.radians / 2 / aspect;
   json.key("cameras").array().object();
   json.key("type").string("perspective").key("perspective").object();
-  json.key("yfov").number(2 * std::atan(half)).key("aspectRatio").number(aspect).key("znear").number(0.01);
+  json.key("yfov").number(2 * math::atan(half)).key("aspectRatio").number(aspect).key("znear").number(0.01);
   json.end_object();
   json.key("extras").object();
   json.key("orbc_projection").string(projection_name(eye.projection));
@@ -222,8 +223,8 @@ void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
           .end_object();
     if (is_cone(lamp)) {
       const bool spot = lamp.kind == scene::LampKind::spot;
-      const double outer = spot ? std::min(std::acos(lamp.cone_outer), std::numbers::pi / 2) : std::numbers::pi / 2;
-      json.key("spot").object().key("innerConeAngle").number(spot ? std::min(std::acos(lamp.cone_inner), 0.999 * outer) : 0.0);
+      const double outer = spot ? std::min(math::acos(lamp.cone_outer), std::numbers::pi / 2) : std::numbers::pi / 2;
+      json.key("spot").object().key("innerConeAngle").number(spot ? std::min(math::acos(lamp.cone_inner), 0.999 * outer) : 0.0);
       json.key("outerConeAngle").number(outer).end_object();
     }
     json.end_object();

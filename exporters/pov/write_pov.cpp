@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "compiler/base/check.h"
+#include "compiler/base/elementary.h"
 #include "compiler/mesh/image.h"
 #include "exporters/pov/base64.h"
 #include "exporters/standpoint.h"
@@ -49,7 +50,7 @@ void write_camera(Pen& pen, const driver::Product& product) {
   pen << "camera {\n  ";
   switch (eye.projection) {
     case scene::Projection::perspective: {
-      const double half = std::tan(eye.fov.radians / 2);
+      const double half = math::tan(eye.fov.radians / 2);
       pen << "perspective\n  location " << at.location << "\n  direction " << at.forward << "\n  right " << (2 * half) * at.right
           << "\n  up " << (2 * half * aspect) * at.up << "\n";
       break;
@@ -106,7 +107,7 @@ void write_atlas_pigment(Pen& pen, const driver::Product& product, const AtlasFi
 constexpr double kFadeDistance = 1e-3;  // 2/(1 + (r/D)²) is 2D²/r² to 1/10,000 from r = 100 D on
 constexpr int kGrid = 7;                // points of an area light in each direction
 
-double degrees_of(double cosine) { return std::acos(std::clamp(cosine, 0.0, 1.0)) * 180 / std::numbers::pi; }
+double degrees_of(double cosine) { return math::acos(std::clamp(cosine, 0.0, 1.0)) * 180 / std::numbers::pi; }
 
 /// A white surface, face on at distance r, is to show intensity/r²; POV-Ray shows colour × 2/(1 + (r/D)²).
 void write_lamp(Pen& pen, const driver::NativeLamp& lamp) {
@@ -228,7 +229,7 @@ std::uint64_t bytes_of(const driver::Amount& amount) {
   // Measured over all examples; indices count from 0 in each copy, so they are as long as a copy is large.
   constexpr double kHead = 900, kCopy = 330, kVertex = 52, kNormal = 33, kTriangle = 6;
   const auto copies = static_cast<double>(std::max<std::uint64_t>(1, amount.copies)), vertices = static_cast<double>(amount.vertices);
-  const double digits = std::floor(std::log10(std::max(1.0, vertices / copies))) + 1;
+  const double digits = std::floor(math::log10(std::max(1.0, vertices / copies))) + 1;
   return static_cast<std::uint64_t>(kHead + kCopy * copies + (kVertex + (amount.normals ? kNormal : 0)) * vertices +
                                     (kTriangle + 3 * digits) * static_cast<double>(amount.triangles));
 }

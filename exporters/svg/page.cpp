@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "compiler/base/check.h"
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 
 namespace orbc::svg {
@@ -206,7 +207,7 @@ TilePath tile_path(const Page& page, const std::vector<Piece>& pieces, const geo
     const Complex m = on_page(page, cover_from_room * pieces[i].middle);
     box.add(p);
     box.add(m);
-    nearest = std::min({nearest, std::abs(p - page.middle), std::abs(m - page.middle)});
+    nearest = std::min({nearest, math::abs(p - page.middle), math::abs(m - page.middle)});
     if (i == 0) move_to(tile.d, 'M', p);
     const double w = page.straight || page.space == Space::euclidean ? 0 : std::fabs((cover_from_room * pieces[i].line).w);
     if (w == 0) move_to(tile.d, 'L', q);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/base/elementary.h"
+
 namespace orbc::svg {
 namespace {
 
@@ -11,14 +13,14 @@ struct Lab {
   double l = 0, a = 0, b = 0;
 };
 
-double decode(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-double encode(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
+double decode(double v) { return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4); }
+double encode(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * math::pow(v, 1 / 2.4) - 0.055; }
 
 Lab lab_of(unsigned rgb) {
   const double r = decode((rgb >> 16 & 255) / 255.0), g = decode((rgb >> 8 & 255) / 255.0), b = decode((rgb & 255) / 255.0);
-  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  const double l = math::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const double m = math::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const double s = math::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
   return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
@@ -51,7 +53,7 @@ std::string fill_of(const cover::Copy& copy, int longest, driver::Tiling::Colour
   if (colouring == driver::Tiling::Colouring::parity) {
     if (length == 0) return kBase;
     // The first reflections stand out; beyond some ten bounces parity is all that is left.
-    const double fade = 0.55 * (1 - std::exp(-(length - 1) / 6.0));
+    const double fade = 0.55 * (1 - math::exp(-(length - 1) / 6.0));
     return hex_of(mix(lab_of(copy.cover_from_room.reversing ? kDark : kLight), lab_of(kHaze), fade));
   }
   const double at = longest > 0 ? static_cast<double>(length) / longest * (kRamp.size() - 1) : 0;

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "compiler/base/elementary.h"
 #include "compiler/base/rational.h"
 #include "compiler/geometry/chart.h"
 #include "exporters/svg/page.h"
@@ -57,8 +58,8 @@ struct Group {
 };
 
 /// The seam of a copy of this size, as a power of √2 so that copies can share it: 0.9 % of its width, never more than 1.2 units.
-int seam_level(double diameter) { return std::min(0, static_cast<int>(std::floor(2 * std::log2(0.009 * diameter / 1.2)))); }
-double seam_width(int level) { return 1.2 * std::exp2(level / 2.0); }
+int seam_level(double diameter) { return std::min(0, static_cast<int>(std::floor(2 * math::log2(0.009 * diameter / 1.2)))); }
+double seam_width(int level) { return 1.2 * math::exp2(level / 2.0); }
 
 struct Tile {
   const cover::Copy* copy;
@@ -129,7 +130,7 @@ void write_labels(std::string& out, const Tiling& tiling, const Page& page) {
   // As large as the closest corners allow, and never larger than the room.
   double gap = 0.9 * page.width;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i)
-    for (std::size_t j = i + 1; j < corners.size(); ++j) gap = std::min(gap, std::abs(corners[i] - corners[j]));
+    for (std::size_t j = i + 1; j < corners.size(); ++j) gap = std::min(gap, math::abs(corners[i] - corners[j]));
   const double radius = std::clamp(0.16 * gap, std::min(0.3 * gap, 8.0), 15.0), size = 1.15 * radius;
   const Complex center = on_page(page, geometry::Point());
 
@@ -139,7 +140,7 @@ void write_labels(std::string& out, const Tiling& tiling, const Page& page) {
   for (std::size_t i = 0; i < room.walls.size(); ++i) {
     const room::Wall& wall = room.walls[i];
     const Complex at = on_page(page, point_along(room.space, wall.start, wall.along, wall.length / 2));
-    const double away = std::abs(center - at);
+    const double away = math::abs(center - at);
     // Inside the room where there is space for it, else in the mirror image behind the wall.
     const Complex inward = away > 0 ? (center - at) / away : 0;
     out += text_at(at + (away > 4 * size ? 0.95 : -0.8) * size * inward, 0.9 * size, "", std::to_string(i + 1));

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/support/instruction_sets.h"
+
 using namespace orbc;
 using namespace orbc::bend;
 using geometry::Point;
@@ -100,5 +102,25 @@ TEST_CASE("a point of the sphere is seen again opposite at 2π − r", "[bend]")
     CHECK(v.x == Approx(0.6 * reach[sheet]).epsilon(1e-14));
     CHECK(v.y == Approx(0.8 * reach[sheet]).epsilon(1e-14));
     CHECK(v.z == 0.25);
+  }
+}
+
+TEST_CASE("bent points have the same bits with every instruction set", "[bend]") {
+  const Space space = GENERATE(Space::hyperbolic, Space::euclidean, Space::spherical);
+  REQUIRE(orbc::testing::instruction_sets().size() >= 2);
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const PointColumns points = random_points(space, 1001, space == Space::spherical ? 1.5 : 1.2, seed);
+    const double far = space == Space::spherical ? 0.05 * seed : 0.6 * seed;
+    const LogMap map{space, geometry::matrix(geometry::translation_by(space, far * std::cos(seed), far * std::sin(seed))),
+                     space == Space::spherical ? static_cast<int>(seed % 4) : 0};
+    const auto made = orbc::testing::with_each_instruction_set([&] {
+      std::vector<float> out(3 * 1001);
+      bend_points(map, points, 0, 1001, out.data());
+      return out;
+    });
+    for (std::size_t i = 1; i < made.size(); ++i) {
+      INFO(geometry::name(space) << ", seed " << seed << ", " << orbc::testing::name_of(orbc::testing::instruction_sets()[i]));
+      CHECK(std::memcmp(made[i].data(), made[0].data(), made[0].size() * sizeof(float)) == 0);
+    }
   }
 }

@@ -85,8 +85,8 @@ TEST_CASE("counts equal the growth series at any depth", "[cover]") {
   CHECK(counts(orbifold("*666"), 15) == expected(orbifold("*666"), 15));
   CHECK(counts(orbifold("*666"), 15)[15] == 37239);
   CHECK(counts(orbifold("*22222"), 4) == std::vector<Integer>{1, 5, 15, 40, 105});
-  for (const char* text :
-       {"*732", "*372", "*(40)32", "*3(1000000)2", "*245", "*2(20)(30)", "*345", "*(10)(10)(10)", "*333", "*244", "*632", "*2222", "**", "*22∞"}) {
+  for (const char* text : {"*732", "*372", "*(40)32", "*3(1000000)2", "*245", "*2(20)(30)", "*345", "*(10)(10)(10)", "*333", "*244", "*632",
+                           "*2222", "**", "*22∞"}) {
     CAPTURE(text);
     CHECK(counts(orbifold(text), 24) == expected(orbifold(text), 24));
   }

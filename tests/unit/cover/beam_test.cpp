@@ -35,7 +35,8 @@ double angle(const cover::Wedge& w) { return std::atan2(cover::turn(w.from, w.to
 }  // namespace
 
 TEST_CASE("beams of a room of equal mirrors find the copies of the group, whole", "[cover]") {
-  const auto room = mirror_room(GENERATE("*22222", "*2323", "*237", "*333", "*244", "*2222", "*222", "*235", "*33", "*22", "*", "**", "*22∞"));
+  const auto room =
+      mirror_room(GENERATE("*22222", "*2323", "*237", "*333", "*244", "*2222", "*222", "*235", "*33", "*22", "*", "**", "*22∞"));
   for (const int bounces : {0, 1, 5, 11}) {
     const scene::CoverSpec spec{bounces, 0, 0, {}};
     const auto by_beams = beams_of(room, spec);

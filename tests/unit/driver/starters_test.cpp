@@ -126,8 +126,8 @@ TEST_CASE("the starter scene of every kind of room is compiled and drawn", "[dri
   const StarterFile file;
   const Executor executor = driver::parallel_executor();
   std::vector<notation::Orbifold> symbols;
-  for (const char* text : {"*", "**", "*22", "*(12)(12)", "*222", "*22(12)", "*22(120)", "*233", "*234", "*235", "*333", "*244", "*236", "*2222",
-                           "*237", "*23(12)", "*(12)(12)(12)", "*2223", "*22222", "*(12)(12)(12)(12)"})
+  for (const char* text : {"*",    "**",   "*22",  "*(12)(12)", "*222", "*22(12)", "*22(120)",      "*233",  "*234",   "*235",
+                           "*333", "*244", "*236", "*2222",     "*237", "*23(12)", "*(12)(12)(12)", "*2223", "*22222", "*(12)(12)(12)(12)"})
     symbols.push_back(notation::parse(text).value());
   std::vector<notation::Orbifold> listed = symbols_up_to_order_12();
   std::mt19937_64 random(5);

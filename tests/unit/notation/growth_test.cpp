@@ -88,8 +88,8 @@ TEST_CASE("counts are those known from elsewhere", "[notation]") {
 }
 
 TEST_CASE("the rational function and the counts are one series", "[notation]") {
-  for (const char* text :
-       {"*237", "*732", "*666", "*2223", "*22222", "*23456789(10)(11)", "*(12)(18)(30)", "*2(210)(330)", "**", "*22∞", "*333", "*3(30)3(30)"}) {
+  for (const char* text : {"*237", "*732", "*666", "*2223", "*22222", "*23456789(10)(11)", "*(12)(18)(30)", "*2(210)(330)", "**", "*22∞",
+                           "*333", "*3(30)3(30)"}) {
     CAPTURE(text);
     CHECK(expanded(growth_series(read(text)).value(), 300) == copies_per_length(read(text), 300));
   }

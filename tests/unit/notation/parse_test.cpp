@@ -201,7 +201,8 @@ TEST_CASE("other orbifolds are refused by their names", "[notation]") {
     CHECK(d.message == message);
   }
   CHECK(refusal("237").hint == "with mirrors it is *237");
-  CHECK(refusal("2*22").hint == "a room is closed by mirrors alone, * followed by its corners; turns and glide reflections are not drawn yet");
+  CHECK(refusal("2*22").hint ==
+        "a room is closed by mirrors alone, * followed by its corners; turns and glide reflections are not drawn yet");
   CHECK(caret("*23x") == "4+1");
   CHECK(caret("*23*4") == "4+1");
   CHECK(caret("22*") == "1+1");

@@ -42,7 +42,8 @@ TEST_CASE("the starter scene of every kind of room is read without a word", "[sc
 }
 
 TEST_CASE("what a starter scene offers in comments is right as well", "[scene]") {
-  for (const auto& [notation, walls, inradius] : {std::tuple{"*22222", 5, 0.5}, {"*", 1, 1.5}, {"**", 4, 1.0}, {"*22∞", 4, 1.0}, {"*235", 3, 0.19}}) {
+  for (const auto& [notation, walls, inradius] :
+       {std::tuple{"*22222", 5, 0.5}, {"*", 1, 1.5}, {"**", 4, 1.0}, {"*22∞", 4, 1.0}, {"*235", 3, 0.19}}) {
     const std::string text = starter_scene({notation, walls, inradius, 0});
     int offers = 0;
     for (const char* offer : {"# 1: {mirror: none", "# 1: {mirrors"}) {

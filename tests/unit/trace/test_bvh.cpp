@@ -1,5 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include <cstring>
+
+#include "tests/support/instruction_sets.h"
 #include "tests/support/threads.h"
 #include "tests/unit/trace/support.h"
 
@@ -275,4 +278,40 @@ TEST_CASE("threads build the tree that one alone does, and walk it at once", "[t
   });
   for (std::size_t i = 0; i < rays.size(); ++i) different += lengths[i] != want[i].length;
   CHECK(different == 0);
+}
+
+TEST_CASE("rays meet the same things with every instruction set, bit by bit", "[trace]") {
+  Random random{77};
+  for (const auto& room : {regular_room(Space::spherical, 3, 2), regular_room(Space::euclidean, 4, 2),
+                           regular_room(Space::hyperbolic, 5, 2), regular_room(Space::hyperbolic, 8, 4), lune(2), lune(5), hemisphere()}) {
+    auto placed = furnished(room);
+    placed.parts.push_back(torus_knot(room.space, room.corners.size() > 2 ? Point() : at_polar(room.space, 0.4, 1), 0.2, 0.06, 0.5, 60, 8));
+    placed.parts.push_back(soup_of(placed, 2000, 0.03, random));
+    placed.parts.push_back(soup_of(placed, 40, 0.4, random));  // near to each other: ends in double
+    placed.looks.resize(1);
+    const TraceScene scene = prepare(placed);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 6000; ++i) {
+      rays.push_back(random_ray(placed, random, i % 3 == 0 ? 1 : i % 3 == 1 ? 0.1 : 0));
+      if (i % 7 == 0) rays.back().t_min = 0.2 * random.unit();
+    }
+    const auto made = orbc::testing::with_each_instruction_set([&] {
+      std::vector<double> numbers;
+      const auto tell = [&](const Hit& hit) {
+        for (const double value : {double(static_cast<int>(hit.target)), double(hit.triangle), hit.t, hit.b[0], hit.b[1], hit.b[2]})
+          numbers.push_back(value);
+      };
+      for (const Hit& hit : closest(scene, rays)) tell(hit);
+      for (const Ray& ray : rays) {
+        tell(closest(scene, ray));
+        numbers.push_back(occluded(scene, ray, 0.7));
+      }
+      return numbers;
+    });
+    for (std::size_t i = 1; i < made.size(); ++i) {
+      INFO("curvature " << geometry::curvature(room.space) << ", " << room.corners.size() << " corners, "
+                        << orbc::testing::name_of(orbc::testing::instruction_sets()[i]));
+      CHECK(std::memcmp(made[i].data(), made[0].data(), made[0].size() * sizeof(double)) == 0);
+    }
+  }
 }

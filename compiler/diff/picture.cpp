@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "compiler/diff/compare.h"
+#include "compiler/diff/exr.h"
+#include "compiler/mesh/image.h"
+#include "compiler/scene/color.h"
+
+namespace orbc::diff {
+namespace {
+
+struct PixelPlace {
+  const EncodedPicture& a;
+  const EncodedPicture& b;
+  [[nodiscard]] Difference at(std::size_t x, std::size_t y, const std::string& what) const {
+    return {fmt::format("{}, pixel ({}, {})", a.name, x, y), fmt::format("{}, pixel ({}, {})", b.name, x, y), what};
+  }
+};
+
+/// Takes down how many steps a pixel is off.
+void take_pixel(double steps, const Limits& limits, Finding& finding, const std::function<Difference()>& place) {
+  ++finding.pixels;
+  if (steps == 0) return;
+  ++finding.pixels_differing;
+  if (steps > finding.largest_step) finding.largest_step = steps, finding.largest_step_at = place().at;
+  if (steps <= limits.pixels) return;
+  ++finding.pixels_beyond;
+  if (!finding.differs) finding.differ(place());
+}
+
+void compare_codes(const mesh::Image& a, const mesh::Image& b, const PixelPlace& place, const Limits& limits, Finding& finding) {
+  const auto width = static_cast<std::size_t>(a.width);
+  for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+    int steps = 0;
+    for (std::size_t c = 0; c < 4; ++c) steps = std::max(steps, std::abs(a.rgba[i + c] - b.rgba[i + c]));
+    take_pixel(steps, limits, finding, [&] {
+      const auto text = [&](const mesh::Image& image) {
+        return fmt::format("({}, {}, {}, {})", image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3]);
+      };
+      return place.at(i / 4 % width, i / 4 / width, text(a) + " against " + text(b));
+    });
+  }
+}
+
+/// Steps of 1/255 between two channels of linear light.
+double steps_between(float a, float b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
+  if (!std::isfinite(a) || !std::isfinite(b)) return HUGE_VAL;
+  const auto code = [](float v) { return v < 0 ? 255 * 12.92 * static_cast<double>(v) : 255 * scene::encode_srgb(v); };
+  return std::max(std::fabs(code(a) - code(b)), 1e-300);  // two different values are never no step apart
+}
+
+void compare_channels(const ExrPicture& a, const ExrPicture& b, const PixelPlace& place, const Limits& limits, Finding& finding) {
+  const auto width = static_cast<std::size_t>(a.width), count = width * static_cast<std::size_t>(a.height);
+  std::vector<double> steps(count, 0.0);
+  std::vector<std::string> colors;
+  for (const auto& [name, values] : a.channels) {
+    const std::vector<float>& others = b.channels.at(name);
+    const std::string last = name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1);
+    const bool is_color = name == last && (name == "R" || name == "G" || name == "B" || name == "A");
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_color) {
+        steps[i] = std::max(steps[i], steps_between(values[i], others[i]));
+      } else {
+        (void)take_numbers(values[i], others[i], limits, finding,
+                           [&] { return place.at(i % width, i / width, fmt::format("{} is {} against {}", name, values[i], others[i])); });
+      }
+    }
+    if (is_color) colors.push_back(name);
+  }
+  if (colors.empty()) return;
+  for (std::size_t i = 0; i < count; ++i)
+    take_pixel(steps[i], limits, finding, [&] { return place.at(i % width, i / width, fmt::format("{:.3g} steps apart", steps[i])); });
+}
+
+Diagnostics compare_exr(const EncodedPicture& a, const EncodedPicture& b, const Limits& limits, Finding& finding) {
+  const auto left = read_exr(a.bytes, a.name), right = read_exr(b.bytes, b.name);
+  if (!left) return left.error();
+  if (!right) return right.error();
+  const auto names = [](const ExrPicture& picture) {
+    std::string text = fmt::format("{} x {} pixels of", picture.width, picture.height);
+    for (const auto& [name, values] : picture.channels) text += ' ' + name;
+    return text;
+  };
+  if (names(*left) != names(*right))
+    return finding.differ_in_structure({a.name, b.name, names(*left) + " against " + names(*right)}), Diagnostics{};
+  compare_channels(*left, *right, {a, b}, limits, finding);
+  return {};
+}
+
+}  // namespace
+
+Diagnostics compare_pictures(const EncodedPicture& a, const EncodedPicture& b, const Limits& limits, Finding& finding) {
+  ++finding.pictures;
+  if (is_exr(a.bytes) != is_exr(b.bytes))
+    return finding.differ_in_structure({a.name, b.name, "one of the pictures is EXR, the other is not"}), Diagnostics{};
+  if (is_exr(a.bytes)) return compare_exr(a, b, limits, finding);
+  const auto left = mesh::decode_image(a.bytes, a.name), right = mesh::decode_image(b.bytes, b.name);
+  if (!left) return {bad_file(left.error().front().message, "as a picture it cannot be read")};
+  if (!right) return {bad_file(right.error().front().message, "as a picture it cannot be read")};
+  if (left->width != right->width || left->height != right->height) {
+    const auto size = [](const mesh::Image& image) { return fmt::format("{} x {} pixels", image.width, image.height); };
+    return finding.differ_in_structure({a.name, b.name, size(*left) + " against " + size(*right)}), Diagnostics{};
+  }
+  compare_codes(*left, *right, {a, b}, limits, finding);
+  return {};
+}
+
+}  // namespace orbc::diff
