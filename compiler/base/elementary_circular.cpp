@@ -53,12 +53,12 @@ Pair cosine_of(const Pair& r) {
 
 double value(const Pair& x) { return x.high + x.low; }
 
-constexpr int kNodes = 64;            // of the interval [0, 1]
+constexpr int kArcNodes = 64;            // of the interval [0, 1]
 
-constexpr std::array<Pair, kNodes + 1> make_arcs() {  // atan x = Σ 4^n n!²/(2n+1)! · x^(2n+1)/(1 + x²)^(n+1) (Euler)
-  std::array<Pair, kNodes + 1> arcs{};
-  for (int i = 0; i <= kNodes; ++i) {
-    const double x = i / static_cast<double>(kNodes), square = x * x;
+constexpr std::array<Pair, kArcNodes + 1> make_arcs() {  // atan x = Σ 4^n n!²/(2n+1)! · x^(2n+1)/(1 + x²)^(n+1) (Euler)
+  std::array<Pair, kArcNodes + 1> arcs{};
+  for (int i = 0; i <= kArcNodes; ++i) {
+    const double x = i / static_cast<double>(kArcNodes), square = x * x;
     const Pair ratio = divide({square, 0}, {1 + square, 0});
     Pair sum{1, 0};
     for (int n = 110; n > 0; --n) sum = add({1, 0}, multiply(multiply(sum, ratio), divide({2.0 * n, 0}, {2.0 * n + 1, 0})));
@@ -66,19 +66,19 @@ constexpr std::array<Pair, kNodes + 1> make_arcs() {  // atan x = Σ 4^n n!²/(2
   }
   return arcs;
 }
-constexpr std::array<Pair, kNodes + 1> kArcs = make_arcs();
+constexpr std::array<Pair, kArcNodes + 1> kArcs = make_arcs();
 
 /// atan(small/big) for 0 ≤ small ≤ big, big > 0 and neither very large nor very small.
 Pair arc_of(double small, double big) {
   static constexpr double kSeries[] = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11};
-  const int i = static_cast<int>(small / big * kNodes + 0.5);
+  const int i = static_cast<int>(small / big * kArcNodes + 0.5);
   if (i < 2) {  // below 1/42 the quotient's own rounding would count
     const double t = small / big, y = t * t;
     const Pair back = product_of(t, big);
     return {t, ((small - back.high) - back.low) / big + t * y * polynomial(y, kSeries)};
   }
   // (small − node·big)/(big + node·small): the node has 6 bits, so both halves of big give exact products.
-  const double node = i * (1.0 / kNodes), ah = 134217729 * big, top = ah - (ah - big), bottom = big - top;
+  const double node = i * (1.0 / kArcNodes), ah = 134217729 * big, top = ah - (ah - big), bottom = big - top;
   const double t = ((small - node * top) - node * bottom) / (big + node * small), y = t * t;
   const Pair& arc = kArcs[static_cast<std::size_t>(i)];
   return fast_sum_of(arc.high, arc.low + (t + t * y * polynomial(y, kSeries)));

@@ -1,5 +1,4 @@
 // Nearest point of a triangle: Ericson, Real-Time Collision Detection (2005), 5.1.5, by the regions of its corners, edges and face.
-#include "compiler/base/elementary.h"
 #include "compiler/driver/renderer_scale.h"
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include <complex>
 #include <limits>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 
 namespace orbc::driver {

@@ -1,4 +1,3 @@
-#include "compiler/base/elementary.h"
 #include "compiler/driver/unlit.h"
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "compiler/base/elementary.h"
 #include "compiler/light/lamp.h"
 
 namespace orbc::driver {

@@ -2,12 +2,12 @@
 // realistic camera model for computer graphics, 1995, §2, there with a plane in focus; here it is the sphere at the focus distance, since
 // in curved space distances from the eye are what has a meaning). Lens and focus are geodesic polar coordinates about the eye, so all is
 // worked out in its frame, where both are near the origin or in one direction from it.
-#include "compiler/base/elementary.h"
 #include "compiler/render/lens.h"
 
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/base/check.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/light/random.h"

@@ -1,5 +1,5 @@
-#include "compiler/base/elementary.h"
 #include "compiler/room/view.h"
+#include "compiler/base/elementary.h"
 
 #include <algorithm>
 #include <cmath>

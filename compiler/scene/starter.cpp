@@ -1,4 +1,3 @@
-#include "compiler/base/elementary.h"
 #include "compiler/scene/starter.h"
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/notation/parse.h"
 #include "compiler/scene/defaults.h"
 
