@@ -27,12 +27,19 @@ struct Facts {
   room::Room room;
 };
 
+/// Names the setting as this command takes it: there is no scene here.
+Diagnostics with_flag_hint(Diagnostics errors) {
+  for (Diagnostic& error : errors)
+    if (error.code == "notation.non-orbifold-corner") error.hint = "rooms that are no orbifolds need --allow-non-orbifold";
+  return errors;
+}
+
 Result<Facts> facts_of(const InfoArguments& a, Diagnostics& notes) {
   notation::ParseOptions options;
   options.allow_non_orbifold = a.allow_non_orbifold;
   options.span = {std::make_shared<SourceText>(SourceText{"notation", a.notation}), 1, 1, a.notation.size()};
   auto parsed = notation::parse_with_notes(a.notation, options);
-  if (!parsed) return with_star_hint(parsed.error(), a.notation);
+  if (!parsed) return with_star_hint(with_flag_hint(parsed.error()), a.notation);
   notes = parsed->notes;
   Facts facts;
   facts.orbifold = parsed->orbifold;

@@ -354,20 +354,21 @@ Diagnostics notes_of(const Opened& opened, const CompileOptions& options, const 
   return notes;
 }
 
-Result<cover::Plan> plan_once(const Opened& opened, const CompileOptions& options, const Executor& executor) {
+Result<cover::Plan> plan_once(const Opened& opened, const CompileOptions& options, const Executor& executor, const Progress& progress) {
   std::optional<Opened> twin;
   if (lit_natively(opened.scene)) twin.emplace(unlit_twin(opened));
   const Opened& from = twin ? *twin : opened;
-  const auto ready = get_ready(from, nullptr, options, Purpose::plan, executor, {});
+  const auto ready = get_ready(from, nullptr, options, Purpose::plan, executor, progress);
   if (!ready) return ready.error();
   return estimated(from, options, **ready, executor);
 }
 
 /// Why the scene cannot be made, with a hint that was tried.
-Diagnostics told(Diagnostics errors, const Opened& opened, const CompileOptions& options, const Executor& executor) {
+Diagnostics told(Diagnostics errors, const Opened& opened, const CompileOptions& options, const Executor& executor,
+                 const Progress& progress) {
   const auto fits = [&](int bounces) {
     constexpr double kSure = 1.2;   // an estimate's error
-    const auto planned = plan_once(with_bounces(opened, bounces), options, executor);
+    const auto planned = plan_once(with_bounces(opened, bounces), options, executor, progress);
     return planned && kSure * static_cast<double>(planned->triangles) <= static_cast<double>(options.bend.max_triangles);
   };
   return located(with_tried_hint(std::move(errors), opened.scene.cover.max_bounces, fits), opened.scene.span);
@@ -434,7 +435,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   if (native) twin.emplace(unlit_twin(opened));
   const Opened& from = twin ? *twin : opened;
   auto made = make_within(from, native ? &opened : nullptr, options, executor, progress);
-  if (!made) return told(made.error(), from, options, executor);
+  if (!made) return told(made.error(), from, options, executor, progress);
   Compiled compiled;
   const double bend_error_px = made->bent.error_bound_px;
   compiled.product = product_of(opened, options, *made->ready, std::move(made->bent));
@@ -449,8 +450,8 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
 }
 
 Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor) {
-  auto planned = plan_once(opened, options, executor);
-  if (!planned) return told(planned.error(), opened, options, executor);
+  auto planned = plan_once(opened, options, executor, {});
+  if (!planned) return told(planned.error(), opened, options, executor, {});
   return planned;
 }
 

@@ -26,9 +26,9 @@ place::PlacedRoom exposed(place::PlacedRoom room, double exposure) {
 /// By how much the points of a bake lie denser than its options say: these mean rooms of some units. In a tiny one no shadow would be
 /// found, and of a huge one no picture would hold all points.
 double density_for(const place::PlacedRoom& room) {
-  constexpr double kSmall = 0.25, kLarge = 64;
+  constexpr double kSmall = 0.5, kLarge = 64;
   const double extent = std::max(room.room.circumradius, room.height);
-  return extent < kSmall ? kSmall / extent : extent > kLarge ? kLarge / extent : 1;
+  return extent < kSmall ? 1 / extent : extent > kLarge ? kLarge / extent : 1;
 }
 
 }  // namespace

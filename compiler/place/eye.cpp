@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
@@ -42,9 +43,15 @@ double determinant(const Ambient& a, const Ambient& b, const Ambient& c) {
   return a.w * (b.x * c.y - b.y * c.x) - a.x * (b.w * c.y - b.y * c.w) + a.y * (b.w * c.x - b.x * c.w);
 }
 
-// Whether the vertical line through the eye meets an odd number of triangles above it, and an odd number below.
+// Whether the vertical line through the eye meets an odd number of triangles above it, and an odd number below. Frames are open where they
+// touch walls, floor and ceiling: there the nearest faces tell, which turn away from an eye that is inside.
 bool is_inside(const PlacedMesh& mesh, const Position& eye) {
   bool above = false, below = false;
+  struct Face {
+    double z;
+    bool up;
+  };
+  std::optional<Face> ceiling, floor;
   for (const mesh::Triangle& t : mesh.triangles) {
     const Point &p = mesh.floor[t[0]], &q = mesh.floor[t[1]], &r = mesh.floor[t[2]], &x = eye.floor;
     const Side side = side_of_moved(p, q, x);
@@ -55,7 +62,10 @@ bool is_inside(const PlacedMesh& mesh, const Position& eye) {
     if (!(sum * whole > 0)) continue;
     const double z = (a * mesh.z[t[0]] + b * mesh.z[t[1]] + c * mesh.z[t[2]]) / sum;
     (z >= eye.z ? above : below) ^= true;
+    if (z >= eye.z && (!ceiling || z < ceiling->z)) ceiling = Face{z, whole > 0};
+    if (z < eye.z && (!floor || z > floor->z)) floor = Face{z, whole > 0};
   }
+  if (mesh.kind == PartKind::frame) return (ceiling || floor) && (!ceiling || ceiling->up) && (!floor || !floor->up);
   return above && below;
 }
 

@@ -126,7 +126,7 @@ void read_own_keys(const Fields& fields, Material& material) {
   read_pattern(fields, material);
   material.color = fields.color("color", material.color);
   material.second = fields.color("second", material.second);
-  material.cell = fields.number("cell", material.cell, {1e-4, kMaxLength});
+  material.cell = fields.number("cell", material.cell, {1e-9, kMaxLength});
   material.roughness = fields.number("roughness", material.roughness, kUnit);
   material.index = fields.number("index", material.index, {1, 5});
   material.emission = fields.number("emission", material.emission, {0, 1e6});

@@ -13,7 +13,7 @@ from helpers import BIN, check, finish, folder, need, picture, run
 
 ORBC = BIN / 'orbc'
 STARTERS = ('*', '**', '*22(120)', '*235', '*(3/2)(12)(12)', '*(2.5)(2.5)(2.5)(2.5)(2.5)')
-COPIES = {'*22222': 166, '*237': 190, '*235': 121, '*333': 235}   # what scenes of two lines plan
+COPIES = {'*22222': 166, '*237': 198, '*235': 121, '*333': 235}   # what scenes of two lines plan
 
 FURNISHED = '''orbc: 1
 orbifold: "{notation}"
@@ -26,15 +26,15 @@ objects:
   - box: {{size: [{side}, {side}, {side}]}}
     at: {{polar: [{aside}, 70deg]}}
     color: coral
-camera: {{at: {{polar: [{eye}, 200deg], z: {eye_z}}}, look_at: {{azimuth: 30deg, elevation: -10deg}}, fov: 80deg, size: [320, 240]}}
+camera: {{at: {{polar: [{eye}, {bearing}deg], z: {eye_z}}}, look_at: {{azimuth: {look}deg, elevation: -10deg}}, fov: 80deg, size: [320, 240]}}
 cover: {{max_bounces: 6, background: "#405060"}}
 '''
 
 
 def furnished(notation, size, **more):
     """A room of that size: everything in it is proportional to it."""
-    values = {'notation': notation, 'shape': f'shape: {{scale: {size}}}', 'height': size, 'cell': 0.4 * size, 'frame': 0.05 * size, 'side': 0.3 * size,
-              'aside': 0.4 * size, 'eye': 0.35 * size, 'eye_z': 0.5 * size}
+    values = {'notation': notation, 'shape': f'scale: {size}', 'height': size, 'cell': 0.4 * size, 'frame': 0.05 * size, 'side': 0.3 * size,
+              'aside': 0.4 * size, 'eye': 0.35 * size, 'eye_z': 0.5 * size, 'bearing': '200', 'look': '30'}
     values.update({key: value if isinstance(value, str) else value * size for key, value in more.items()})
     return FURNISHED.format(**values)
 
@@ -59,6 +59,15 @@ def starters(where):
         check(fresh.returncode == 0 and not told, f'orbc new {notation}: its scene is checked, compiled and drawn {told or ""}')
 
 
+def told_settings():
+    """A hint names a setting that the same command takes."""
+    refused = run([ORBC, 'info', '*(3/2)44'])
+    flag = [word for word in refused.stderr.decode().split() if word.startswith('--')]
+    check(refused.returncode == 1 and len(flag) == 1, f'orbc info refuses real corners and names a flag: {flag}')
+    taken = run([ORBC, 'info', '*(3/2)44', *flag])
+    check(taken.returncode == 0, 'orbc info takes it ' + taken.stderr.decode())
+
+
 def agrees(where, text, what, *more):
     scene = where / 'scene.yaml'
     scene.write_text(text)
@@ -74,12 +83,16 @@ def agrees(where, text, what, *more):
 
 def sizes(where):
     blender = ('--blender',) if shutil.which('blender') else ()
-    for size in (1e-4, 1e-7, 1e6):
+    for size in (1e-4, 1e-7, 900):
         agrees(where, furnished('*2222', size), f'a room of size {size:g}', *blender)
-    agrees(where, furnished('*333', 1, eye=1 - 1e-5), 'an eye 1e-5 from a wall', *blender)
+    size = 1e-4
+    lamp = f'lights: [{{at: {{polar: [{0.3 * size}, 10deg], z: {0.8 * size}}}, radius: {0.05 * size}, power: {10 * size * size}}}]\nambient: "#333"\n'
+    agrees(where, furnished('*2222', size) + lamp, 'a lit room of size 0.0001', '--samples', '16', '--within', '4', '--threshold', '0.99')
+    for look in ('0', '120'):   # away from the wall, and into it
+        agrees(where, furnished('*333', 1, eye=1 - 1e-5, bearing='180', look=look), f'an eye 1e-5 from a wall, looking to {look} degrees', *blender)
     agrees(where, furnished('*2222', 1, eye_z=1e-5), 'an eye 1e-5 above the floor', *blender)
-    agrees(where, furnished('*22222', 0.3, shape='shape: tangential', eye_z=0.3 - 1e-5), 'an eye 1e-5 below the ceiling of a hyperbolic room', *blender)
-    agrees(where, furnished('*2222', 1e-3, eye_z=1e-5), 'an eye 1e-5 above the floor of a small room', *blender)
+    agrees(where, furnished('*22222', 0.3, shape='shape: tangential', eye_z=1 - 1e-4), 'an eye 3e-5 below the ceiling of a hyperbolic room', *blender)
+    agrees(where, furnished('*2222', 1e-3, eye_z=1e-2), 'an eye 1e-5 above the floor of a small room', *blender)
 
 
 def backgrounds(where):
@@ -102,6 +115,7 @@ def main():
         where = pathlib.Path(name)
         plans(where)
         starters(where)
+        told_settings()
         sizes(where)
         backgrounds(where)
     finish()

@@ -13,13 +13,14 @@
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
 #include "compiler/room/realise.h"
+#include "compiler/room/view.h"
 #include "compiler/scene/starter.h"
 
 using namespace orbc;
 
 namespace {
 
-/// A file that is gone afterwards.
+/// A scene file that is gone afterwards.
 struct StarterFile {
   StarterFile() {
     std::string name = (std::filesystem::temp_directory_path() / "orbc-starter.XXXXXX").string();
@@ -39,7 +40,8 @@ struct StarterFile {
 std::string starter_of(const notation::Orbifold& orbifold) {
   const auto room = room::realise(orbifold, {}, true);
   if (!room) FAIL(notation::to_text(orbifold) << ": " << to_text(room.error()));
-  return scene::starter_scene(notation::to_text(orbifold), static_cast<int>(room->walls.size()), room->inradius);
+  return scene::starter_scene(
+      {notation::to_text(orbifold), static_cast<int>(room->walls.size()), room->inradius, room::view_direction(*room)});
 }
 
 /// What is wrong with a starter scene as `orbc check` sees it, or nothing.
@@ -51,9 +53,7 @@ std::string fault_of_starter(const notation::Orbifold& orbifold, const StarterFi
 }
 
 void draw_starter(const notation::Orbifold& orbifold, const StarterFile& file, const Executor& executor) {
-  driver::Overrides small;
-  small.size = {64, 48};
-  small.quality = scene::BakeQuality::draft;
+  const scene::Overrides small{{"<size>", "camera.size=[64, 48]"}, {"<quality>", "bake.quality=draft"}};
   const auto opened = driver::open_scene(file.write(starter_of(orbifold)), small);
   REQUIRE(opened);
   driver::CompileOptions options;

@@ -282,6 +282,24 @@ TEST_CASE("an eye in a column from floor to ceiling is inside it", "[place]") {
   CHECK(code_of(scene, placed) == "");
 }
 
+TEST_CASE("an eye next to a wall stands between the bars of its frame, not in it", "[place]") {
+  for (const std::string notation : {"*333", "*22222", "*222"}) {
+    CAPTURE(notation);
+    scene::Scene scene = bare_scene(notation);
+    for (scene::Wall& wall : scene.room.walls) wall.mirrors[0].frame.emplace().width = 0.1;
+    const PlacedRoom placed = interior_of(scene);
+    const auto code_at = [&](double from_wall, double z) {
+      scene.camera.place.floor = scene::AtToward{false, 1, placed.room.inradius - from_wall};
+      scene.camera.place.z = z;
+      return code_of(scene, placed);
+    };
+    for (const double from_wall : {1e-5, 1e-3, 0.02}) CHECK(code_at(from_wall, 0.5) == "");
+    CHECK(code_at(0.01, 0.97) == "place.eye-inside-object");   // in the bar at the ceiling
+    CHECK(code_at(0.01, 0.03) == "place.eye-inside-object");
+    CHECK(code_at(0.3, 0.97) == "");
+  }
+}
+
 TEST_CASE("the eye in the hole of a ring is not inside it, wherever the vertical line meets edges and vertices", "[place][long]") {
   scene::Scene scene = bare_scene("*2222");
   scene::Object ring;
