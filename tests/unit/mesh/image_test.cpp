@@ -73,6 +73,24 @@ TEST_CASE("a JPEG is read as RGB, whatever its name", "[mesh]") {
   CHECK(image->rgba[3] == 255);
 }
 
+TEST_CASE("a JPEG that is written shows the picture, without its alpha, and has the same bytes every time", "[mesh]") {
+  Image picture{65, 40, {}};
+  for (int i = 0; i < picture.width * picture.height; ++i)
+    picture.rgba.insert(picture.rgba.end(), {static_cast<std::uint8_t>(i % 65 * 3), static_cast<std::uint8_t>(i / 65 * 6), 90, 0});
+  const std::string bytes = encode_jpeg(picture);
+  CHECK(bytes == encode_jpeg(picture));
+  CHECK(bytes.size() < picture.rgba.size());
+  CHECK(encode_jpeg(picture, 30).size() < bytes.size());
+  const auto back = decode_image(bytes, "a JPEG");
+  REQUIRE(back);
+  REQUIRE(back->width == 65);
+  REQUIRE(back->height == 40);
+  int worst = 0;
+  for (std::size_t i = 0; i < back->rgba.size(); ++i)
+    worst = std::max(worst, std::abs(i % 4 == 3 ? back->rgba[i] - 255 : back->rgba[i] - picture.rgba[i]));
+  CHECK(worst <= 6);
+}
+
 TEST_CASE("pictures that are too large, broken or none are refused", "[mesh]") {
   const Folder folder("pictures");
   CHECK(code(load_image(folder("gone.png"))) == "mesh.missing-file");
