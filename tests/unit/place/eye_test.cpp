@@ -179,7 +179,7 @@ TEST_CASE("a camera that rolls clockwise turns its picture counter-clockwise abo
       CHECK(seen[1] == Approx(200 + std::cos(a) * (y - 200) - std::sin(a) * (x - 320)));
     }
     scene.camera.projection = scene::Projection::panorama;
-    CHECK(make_eye(scene, room).value().up.z == 1);
+    CHECK(make_eye(scene, room).value().up.z == Approx(1));
     scene.camera.projection = scene::Projection::perspective;
   }
 }
