@@ -14,6 +14,8 @@ orbc_system_test(system_povray_pipe povray_pipe.py 400 render)
 orbc_system_test(system_gltf_valid gltf_valid.py 300 fast)
 orbc_system_test(system_objects_gltf objects_gltf.py 600 render)
 orbc_system_test(system_svg_pictures svg_pictures.py 300 fast)
+orbc_system_test(system_svg_command svg_command.py 300 fast)
+orbc_system_test(system_python_docs python_docs.py 120 fast)
 orbc_system_test(system_blender blender.py 600 render slow)
 
 add_executable(mirror_room ${CMAKE_SOURCE_DIR}/tests/system/mirror_room.cpp)

@@ -22,12 +22,30 @@ struct InfoArguments {
   std::string shape = "tangential";
   double cut = 1.4;
   bool allow_non_orbifold = false;
+  int copies = 20;                  ///< with --json: how many of the first copies are told with their isometries
 };
 struct EnumerateArguments {
   int corners = 3;
   int max_order = 8;
   std::string space;                ///< only these; empty = all
   bool all = false;                 ///< also more than a million
+};
+struct SvgArguments {
+  std::string notation;
+  std::string output = "-";
+  std::string size = "1000";        ///< pixels, or with a unit
+  std::string model = "disk";
+  bool labels = true;
+  std::vector<std::string> colors;  ///< none or two
+  std::string color_by = "parity";
+  double lines = 1.2;
+  std::string line_color;           ///< empty = paper
+  std::string motif;                ///< empty = none
+  bool cuts = false;
+  double smallest = 1;              ///< pixels
+  std::size_t max_copies = 100'000;
+  std::string shape = "tangential";
+  double cut = 1.4, aspect = 1, length = 4;
 };
 struct NewArguments {
   std::string notation = "*22222";
@@ -98,6 +116,7 @@ struct DiffArguments {
 /// Each command returns the exit code: 0 done, 1 the scene is wrong, 2 usage, 3 the machine.
 int info(const InfoArguments& arguments, const Common& common);
 int enumerate(const EnumerateArguments& arguments, const Common& common);
+int draw_svg(const SvgArguments& arguments, const Common& common);
 int new_scene(const NewArguments& arguments, const Common& common);
 int check(const CheckArguments& arguments, const Common& common);
 int compile(const CompileArguments& arguments, const Common& common);

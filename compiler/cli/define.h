@@ -32,6 +32,7 @@ struct Program {
 
 void define_info(Program& program);
 void define_enumerate(Program& program);
+void define_svg(Program& program);
 void define_new(Program& program);
 void define_check(Program& program);
 void define_compile(Program& program);

@@ -22,6 +22,10 @@ void define_info(Program& program) {
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 100.0))
       ->type_name("LENGTH");
+  c->add_option("--copies", a.copies, "With --json: how many of the first copies are told with their isometries")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100000))
+      ->type_name("N");
   c->add_flag("--allow-non-orbifold", a.allow_non_orbifold, "Accept real-valued corners such as *(3/2)(12)(12)");
   c->footer("Examples:\n  orbc info '*237'\n  orbc info '*23456789(10)(11)' --json\n  orbc info '*22222' --shape paper --cut 1.4");
   add_common(*c, program.common);

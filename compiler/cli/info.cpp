@@ -4,6 +4,7 @@
 
 #include "compiler/cli/commands.h"
 #include "compiler/cli/expanded_star.h"
+#include "compiler/cli/isometries_json.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/support.h"
 #include "compiler/notation/classify.h"
@@ -57,7 +58,7 @@ Result<Facts> facts_of(const InfoArguments& a, Diagnostics& notes) {
   return facts;
 }
 
-std::string json_text(const Facts& f) {
+std::string json_text(const Facts& f, int copies) {
   using Json = nlohmann::ordered_json;
   const auto number = [](double v) { return Json(v).dump(); };
   std::vector<std::string> lines;
@@ -84,6 +85,8 @@ std::string json_text(const Facts& f) {
   add("moduli", std::to_string(room::summarise(f.room).moduli));
   const int cover = room::summarise(f.room).translational_cover;
   add("translational_cover", cover ? std::to_string(cover) : "null");
+  add("corners", list(f.room.corners, [&](const room::Corner& c) { return corner_json(f.room.space, c.at); }));
+  if (f.tiles) add("copies", list(first_copies(f.room, copies), copy_json));
   add("certificate", fmt::format("{{\"convex\": {}, \"angle_residual\": {}, \"closure_residual\": {}, \"area_residual\": {}}}",
                                  f.room.certificate.convex, number(f.room.certificate.angle_residual),
                                  number(f.room.certificate.closure_residual), number(f.room.certificate.area_residual)));
@@ -136,7 +139,7 @@ int info(const InfoArguments& a, const Common& common) {
   const auto facts = facts_of(a, notes);
   if (!facts) return print(facts.error(), common), kSceneWrong;
   if (!common.quiet) for (const Diagnostic& note : notes) std::fputs(to_text(note).c_str(), stderr);
-  write_output("-", common.json ? json_text(*facts) : people_text(*facts));
+  write_output("-", common.json ? json_text(*facts, a.copies) : people_text(*facts));
   return kDone;
 }
 

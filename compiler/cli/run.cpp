@@ -29,6 +29,7 @@ constexpr int kInterrupted = 130;
 void define_commands(Program& program) {
   define_info(program);
   define_enumerate(program);
+  define_svg(program);
   define_new(program);
   define_check(program);
   define_compile(program);

@@ -23,7 +23,7 @@ constexpr double kStereographicFrame = 1.8;  // the equator's radius is 1: all b
 constexpr double kGnomonicFrame = 2;         // 63° around the centre
 constexpr double kFlatArc = 0.02;            // page units: a flatter arc cannot be told from its chord
 
-struct Box {
+struct Extent {
   double low[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   double high[2] = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   void add(Complex z) {
@@ -47,6 +47,12 @@ void arc_to(std::string& d, Complex p, Complex m, Complex q, double r) {
   d += coordinate(q.real()) + ' ' + coordinate(q.imag());
 }
 
+/// From the first point over the second to the third on a circle of curvature `bend`.
+void draw_to(std::string& d, const std::array<Complex, 3>& points, double bend) {
+  if (bend < 1e-12) move_to(d, 'L', points[2]);
+  else arc_to(d, points[0], points[1], points[2], 1 / bend);
+}
+
 /// The part of the polygon on the left of the line a + b·x + c·y = 0 (Sutherland and Hodgman, 1974).
 std::vector<Complex> clipped(const std::vector<Complex>& polygon, const Line& line) {
   const auto value = [&](Complex z) { return line.w + line.x * z.real() + line.y * z.imag(); };
@@ -63,7 +69,7 @@ std::vector<Complex> clipped(const std::vector<Complex>& polygon, const Line& li
 TilePath polygon_path(const std::vector<Complex>& corners) {
   TilePath tile;
   if (corners.size() < 3) return tile;
-  Box box;
+  Extent box;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     box.add(corners[i]);
     move_to(tile.d, i == 0 ? 'M' : 'L', corners[i]);
@@ -160,12 +166,15 @@ std::vector<Piece> seen_pieces(Space space, const std::vector<Piece>& pieces, co
 
 Complex on_page(const Page& page, const Point& p) {
   Complex z;
-  if (page.straight) {
+  if (page.half_plane) {
+    const double height = 1 / (p.w - p.x);  // i(1 + z)/(1 − z) of the disk's z, without its cancellation
+    z = {-p.y * height, height};
+  } else if (page.straight) {
     z = geometry::gnomonic_from_point(p);
   } else if (page.space == Space::spherical) {
     z = Complex(p.x, p.y) / std::max(1 + p.w, 1e-7);
   } else {
-    z = geometry::disk_from_point(page.space, p);
+    z = page.turn * geometry::disk_from_point(page.space, p);
   }
   return page.middle + page.scale * std::conj(z);
 }
@@ -176,12 +185,13 @@ Page make_page(const driver::Tiling& tiling, const std::vector<Piece>& pieces, d
   page.straight = tiling.model == driver::Tiling::Model::klein && page.space != Space::euclidean;
   page.width = page.height = width;
   page.middle = {width / 2, width / 2};
+  page.unit = width / 1000;
   if (page.space != Space::euclidean) {
     page.frame = page.space == Space::hyperbolic ? 1 : page.straight ? kGnomonicFrame : kStereographicFrame;
     page.scale = (width / 2 - kMargin) / page.frame;
     return page;
   }
-  Box box;
+  Extent box;
   for (const Piece& piece : pieces) box.add({piece.from.x, piece.from.y});
   for (const cover::Copy& copy : tiling.copies)
     for (const Piece& piece : pieces) {
@@ -197,10 +207,39 @@ Page make_page(const driver::Tiling& tiling, const std::vector<Piece>& pieces, d
   return page;
 }
 
+std::string open_path(const Page& page, const Piece& piece) {
+  const std::array<Complex, 3> points = {on_page(page, piece.from), on_page(page, piece.middle), on_page(page, piece.to)};
+  std::string d;
+  move_to(d, 'M', points[0]);
+  draw_to(d, points, bend_of(page, piece.line));
+  return d;
+}
+
+double bend_of(const Page& page, const Line& line) {
+  if (page.straight || page.space == Space::euclidean) return 0;
+  // Half-plane: (w + x)(X² + Y²)/2 − yX + (w − x)/2 = 0, a circle of radius 1/|w + x| about y/(w + x).
+  return std::fabs(page.half_plane ? line.w + line.x : line.w) / page.scale;
+}
+
+Box box_on_page(const Page& page, const std::vector<Piece>& pieces, const geometry::Isometry& cover_from_room) {
+  Extent extent;
+  for (const Piece& piece : pieces) {
+    extent.add(on_page(page, cover_from_room * piece.from));
+    extent.add(on_page(page, cover_from_room * piece.middle));
+  }
+  return {extent.low[0], extent.low[1], extent.high[0], extent.high[1]};
+}
+
+bool is_outside(const Page& page, const Box& box) {
+  if (!page.window) return false;
+  const Box& w = *page.window;
+  return box.right < w.left || box.left > w.right || box.bottom < w.top || box.top > w.bottom;
+}
+
 TilePath tile_path(const Page& page, const std::vector<Piece>& pieces, const geometry::Isometry& cover_from_room) {
   if (page.straight && page.space == Space::spherical) return gnomonic_sphere_path(page, pieces, cover_from_room);
   TilePath tile;
-  Box box;
+  Extent box;
   double nearest = std::numeric_limits<double>::infinity();  // of the outline to the middle of the page
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Complex p = on_page(page, cover_from_room * pieces[i].from), q = on_page(page, cover_from_room * pieces[i].to);
@@ -209,10 +248,9 @@ TilePath tile_path(const Page& page, const std::vector<Piece>& pieces, const geo
     box.add(m);
     nearest = std::min({nearest, math::abs(p - page.middle), math::abs(m - page.middle)});
     if (i == 0) move_to(tile.d, 'M', p);
-    const double w = page.straight || page.space == Space::euclidean ? 0 : std::fabs((cover_from_room * pieces[i].line).w);
-    if (w == 0) move_to(tile.d, 'L', q);
-    else arc_to(tile.d, p, m, q, page.scale / w);
+    draw_to(tile.d, {p, m, q}, bend_of(page, cover_from_room * pieces[i].line));
   }
+  if (is_outside(page, {box.low[0], box.low[1], box.high[0], box.high[1]})) return {};
   tile.d += 'Z';
   tile.diameter = std::max(box.size(0), box.size(1));
   if (page.space == Space::spherical) {

@@ -41,6 +41,8 @@ std::string hex_of(const Lab& c) {
   return hex;
 }
 
+unsigned code_of(const std::string& color) { return static_cast<unsigned>(std::stoul(color.substr(1), nullptr, 16)); }
+
 Lab mix(const Lab& a, const Lab& b, double t) { return {a.l + t * (b.l - a.l), a.a + t * (b.a - a.a), a.b + t * (b.b - a.b)}; }
 
 constexpr unsigned kLight = 0xf3e7cf, kDark = 0x33586f, kHaze = 0x9aaab0;
@@ -48,8 +50,11 @@ constexpr std::array<unsigned, 6> kRamp{0xe8684a, 0xf2a65a, 0xf4d58d, 0x8fbfa3, 
 
 }  // namespace
 
-std::string fill_of(const cover::Copy& copy, int longest, driver::Tiling::Colouring colouring) {
+std::string fill_of(const cover::Copy& copy, int longest, driver::Tiling::Colouring colouring, const Colors& colors) {
   const int length = static_cast<int>(copy.word.size());
+  if (colors && colouring == driver::Tiling::Colouring::parity) return (*colors)[copy.cover_from_room.reversing ? 1 : 0];
+  if (colors)
+    return hex_of(mix(lab_of(code_of((*colors)[0])), lab_of(code_of((*colors)[1])), std::min(1.0, static_cast<double>(length) / longest)));
   if (colouring == driver::Tiling::Colouring::parity) {
     if (length == 0) return kBase;
     // The first reflections stand out; beyond some ten bounces parity is all that is left.
@@ -63,8 +68,13 @@ std::string fill_of(const cover::Copy& copy, int longest, driver::Tiling::Colour
   return hex_of(color);
 }
 
-std::string haze(driver::Tiling::Colouring colouring) {
+std::string haze(driver::Tiling::Colouring colouring, const Colors& colors) {
+  if (colors)
+    return hex_of(
+        mix(lab_of(code_of((*colors)[0])), lab_of(code_of((*colors)[1])), colouring == driver::Tiling::Colouring::parity ? 0.5 : 1));
   return hex_of(colouring == driver::Tiling::Colouring::parity ? lab_of(kHaze) : lab_of(kRamp.back()));
 }
+
+std::string ink_on(const std::string& fill) { return lab_of(code_of(fill)).l > 0.62 ? kInk : kPaper; }
 
 }  // namespace orbc::svg

@@ -8,11 +8,9 @@
 #include <set>
 
 #include "compiler/base/elementary.h"
-#include "compiler/base/rational.h"
-#include "compiler/geometry/chart.h"
+#include "exporters/svg/labels.h"
 #include "exporters/svg/page.h"
 #include "exporters/svg/palette.h"
-#include "exporters/text.h"
 
 namespace orbc::svg {
 namespace {
@@ -21,45 +19,33 @@ using Complex = std::complex<double>;
 using driver::Tiling;
 using geometry::Space;
 
-constexpr double kTooltipFrom = 8;      // page units: narrower copies are hard to hit and share one path
-constexpr double kCaption = 46;
+constexpr double kTooltipFrom = 8;  // page units: narrower copies are hard to hit and share one path
+constexpr double kMotifFrom = 7;    // narrower copies show no motif
+constexpr double kCaption = 34;
 
-/// Text for XML: marks escaped, control characters blank, bytes that are not UTF-8 as U+FFFD.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = exporters::utf8_length(text.substr(i));
-    const char c = text[i];
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (length == 0) out += "\ufffd";
-    else if (static_cast<unsigned char>(c) < 32) out += ' ';
-    else out += text.substr(i, length);
-    i += length == 0 ? 1 : length;
-  }
-  return out;
-}
-
-std::string attribute(const char* name, double value) { return std::string(" ") + name + "=\"" + coordinate(value) + "\""; }
-
-const char* chart_name(const Tiling& tiling) {
+const char* chart_name(const Tiling& tiling, const Page& page) {
+  if (page.half_plane) return "hyperbolic plane, upper half-plane";
   if (tiling.room.space == Space::euclidean) return "Euclidean plane";
-  const bool straight = tiling.model == Tiling::Model::klein;
+  const bool straight = page.straight;
   if (tiling.room.space == Space::hyperbolic) return straight ? "hyperbolic plane, Klein disk" : "hyperbolic plane, Poincaré disk";
   return straight ? "sphere, gnomonic projection" : "sphere, stereographic projection";
 }
 
 /// Everything that shares fill and seam.
 struct Group {
-  std::string single;   // paths with tooltips
-  std::string joint;    // one `d` for all small copies
+  std::string single;  // paths with tooltips
+  std::string joint;   // one `d` for all small copies
   std::size_t joint_count = 0;
 };
 
-/// The seam of a copy of this size, as a power of √2 so that copies can share it: 0.9 % of its width, never more than 1.2 units.
-int seam_level(double diameter) { return std::min(0, static_cast<int>(std::floor(2 * math::log2(0.009 * diameter / 1.2)))); }
-double seam_width(int level) { return 1.2 * math::exp2(level / 2.0); }
+constexpr double kLine = 1.2;  // page units: between large copies
+
+/// The seam of a copy of this size, as a power of √2 so that copies can share it: 0.9 % of its width, never more than `lines`, if these are
+/// as wide as usual.
+int seam_level(double diameter, const Page& page) {
+  return std::min(0, static_cast<int>(std::floor(2 * math::log2(0.009 * diameter / (kLine * page.unit)))));
+}
+double seam_width(int level, const Page& page, double lines) { return lines * page.unit * math::exp2(level / 2.0); }
 
 struct Tile {
   const cover::Copy* copy;
@@ -88,14 +74,21 @@ std::vector<Tile> visible_tiles(const Tiling& tiling, const Page& page, const st
   return tiles;
 }
 
-std::map<std::pair<std::string, int>, Group> grouped(const std::vector<Tile>& tiles, const Tiling& tiling, bool tooltips) {
+int longest_told(const std::vector<Tile>& tiles) {
   int longest = 1;  // of the copies whose colour can be told, so that the ramp is used in full
   for (const Tile& tile : tiles)
     if (tile.path.diameter >= kTooltipFrom) longest = std::max(longest, static_cast<int>(tile.copy->word.size()));
-  std::map<std::pair<std::string, int>, Group> groups;
+  return longest;
+}
+
+using Groups = std::map<std::pair<std::string, int>, Group>;
+
+Groups grouped(const std::vector<Tile>& tiles, const Tiling& tiling, const Page& page, const SvgOptions& options) {
+  const int longest = longest_told(tiles);
+  Groups groups;
   for (const Tile& tile : tiles) {
-    Group& group = groups[{fill_of(*tile.copy, longest, tiling.colouring), seam_level(tile.path.diameter)}];
-    if (tooltips && tile.path.diameter >= kTooltipFrom) {
+    Group& group = groups[{fill_of(*tile.copy, longest, tiling.colouring, options.colors), seam_level(tile.path.diameter, page)}];
+    if (options.tooltips && tile.path.diameter >= kTooltipFrom) {
       const std::string word = tile.copy->word.empty() ? "the room" : cover::to_string(tile.copy->word);
       group.single += "<path d=\"" + tile.path.d + "\"><title>" + word + "</title></path>\n";
     } else {
@@ -107,53 +100,42 @@ std::map<std::pair<std::string, int>, Group> grouped(const std::vector<Tile>& ti
   return groups;
 }
 
-void write_groups(std::string& out, const std::map<std::pair<std::string, int>, Group>& groups) {
+void write_groups(std::string& out, const Groups& groups, const Page& page, double lines) {
   for (const auto& [key, group] : groups) {
-    out += "<g fill=\"" + key.first + "\"" + attribute("stroke-width", seam_width(key.second)) + ">\n" + group.single;
+    // Without lines neighbours would leave hairs of paper between them: each is as much larger as closes them.
+    const std::string seam = lines > 0 ? attribute("stroke-width", seam_width(key.second, page, lines))
+                                       : " stroke=\"" + key.first + "\"" + attribute("stroke-width", 0.4 * page.unit);
+    out += "<g fill=\"" + key.first + "\"" + seam + ">\n" + group.single;
     if (!group.joint.empty()) out += "<path d=\"" + group.joint + "\"/>\n";
     out += "</g>\n";
   }
 }
 
-/// A text with a halo of paper around it.
-std::string text_at(Complex at, double size, const char* attributes, const std::string& text) {
-  return "<text" + attribute("x", at.real()) + attribute("y", at.imag() + 0.35 * size) + attribute("font-size", size) + attributes + ">" +
-         text + "</text>\n";
+/// The motif of every copy that is large enough to show one, dark on light and light on dark.
+void write_motifs(std::string& out, const std::vector<Tile>& tiles, const Tiling& tiling, const Page& page, const SvgOptions& options) {
+  if (options.motif.empty()) return;
+  const int longest = longest_told(tiles);
+  std::map<std::string, std::string> by_color;
+  for (const Tile& tile : tiles) {
+    if (tile.path.diameter < kMotifFrom * page.unit) continue;
+    std::string& d = by_color[ink_on(fill_of(*tile.copy, longest, tiling.colouring, options.colors))];
+    d += motif_path(page, options.motif, tile.copy->cover_from_room) + '\n';
+  }
+  for (const auto& [color, d] : by_color) out += "<path fill=\"" + color + "\" fill-rule=\"nonzero\" stroke=\"none\" d=\"" + d + "\"/>\n";
 }
 
-void write_labels(std::string& out, const Tiling& tiling, const Page& page) {
-  const room::Room& room = tiling.room;
-  if (page.straight && room.space == Space::spherical && room.circumradius > 1.1) return;  // corners beyond the frame
-  std::vector<Complex> corners;
-  for (std::size_t i = 0; i < room.corners.size() && i < room.orbifold.corners.size(); ++i)
-    corners.push_back(on_page(page, room.corners[i].at));
-  // As large as the closest corners allow, and never larger than the room.
-  double gap = 0.9 * page.width;
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i)
-    for (std::size_t j = i + 1; j < corners.size(); ++j) gap = std::min(gap, math::abs(corners[i] - corners[j]));
-  const double radius = std::clamp(0.16 * gap, std::min(0.3 * gap, 8.0), 15.0), size = 1.15 * radius;
-  const Complex center = on_page(page, geometry::Point());
-
-  out += "<g font-family=\"Georgia, 'Times New Roman', serif\" text-anchor=\"middle\">\n";
-  out += "<g fill=\"" + std::string(kInk) + "\" stroke=\"" + kPaper + "\"" + attribute("stroke-width", 0.22 * size) +
-         " stroke-linejoin=\"round\" paint-order=\"stroke\" font-style=\"italic\">\n";
-  for (std::size_t i = 0; i < room.walls.size(); ++i) {
-    const room::Wall& wall = room.walls[i];
-    const Complex at = on_page(page, point_along(room.space, wall.start, wall.along, wall.length / 2));
-    const double away = math::abs(center - at);
-    // Inside the room where there is space for it, else in the mirror image behind the wall.
-    const Complex inward = away > 0 ? (center - at) / away : 0;
-    out += text_at(at + (away > 4 * size ? 0.95 : -0.8) * size * inward, 0.9 * size, "", std::to_string(i + 1));
-  }
-  out += "</g>\n<g fill=\"" + std::string(kPaper) + "\" stroke=\"" + kInk + "\"" + attribute("stroke-width", 0.09 * radius) + ">\n";
-  for (const Complex& at : corners)
-    out += "<circle" + attribute("cx", at.real()) + attribute("cy", at.imag()) + attribute("r", radius) + "/>\n";
-  out += "</g>\n<g fill=\"" + std::string(kInk) + "\" font-weight=\"bold\">\n";
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::string order = to_string(room.orbifold.corners[i]);
-    out += text_at(corners[i], size * (order.size() < 3 ? 1.0 : 2.3 / static_cast<double>(order.size())), "", order);
-  }
-  out += "</g>\n</g>\n";
+/// Plain walls that close a strip, in all its copies.
+void write_end_walls(std::string& out, const std::vector<Tile>& tiles, const Tiling& tiling, const Page& page,
+                     const std::vector<Piece>& pieces) {
+  std::string d;
+  for (const Tile& tile : tiles)
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (tiling.room.walls[static_cast<std::size_t>(tiling.room.outline_wall[i])].reflects) continue;
+      const geometry::Isometry& map = tile.copy->cover_from_room;
+      d += open_path(page, {map * pieces[i].from, map * pieces[i].middle, map * pieces[i].to, map * pieces[i].line});
+    }
+  if (!d.empty())
+    out += "<path fill=\"none\" stroke=\"" + std::string(kInk) + "\"" + attribute("stroke-width", 5 * page.unit) + " d=\"" + d + "\"/>\n";
 }
 
 std::string circle(const Page& page, double chart_radius, const std::string& attributes) {
@@ -163,53 +145,97 @@ std::string circle(const Page& page, double chart_radius, const std::string& att
 
 }  // namespace
 
-std::vector<driver::File> write_svg(const Tiling& tiling, const SvgOptions& options) {
-  const std::vector<Piece> pieces = outline_pieces(tiling.room);
-  const Page page = make_page(tiling, pieces, options.width);
-  const std::vector<Tile> tiles = visible_tiles(tiling, page, pieces, options.smallest);
-  const bool framed = page.frame > 0;
-  const std::string clip = "orbc-frame-" + coordinate(options.width);
-  const double height = page.height + (options.labels ? kCaption - 12 : 0);
+namespace {
 
-  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"";
-  out += attribute("width", page.width) + attribute("height", height) + " viewBox=\"0 0 " + coordinate(page.width) + " " +
-         coordinate(height) + "\" role=\"img\">\n";
+std::string head(const Tiling& tiling, const Page& page, const std::vector<Tile>& tiles, const SvgOptions& options) {
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
+  out +=
+      coordinate(page.width / options.per_unit) + options.unit + "\" height=\"" + coordinate(page.height / options.per_unit) + options.unit;
+  out += "\" viewBox=\"0 0 " + coordinate(page.width) + " " + coordinate(page.height) + "\" role=\"img\">\n";
   out += "<title>" + escaped(tiling.title) + "</title>\n<desc>The mirror room " + escaped(tiling.title) + " and its " +
-         std::to_string(tiles.size()) + " drawn copies; " + chart_name(tiling) + ". The room itself is orange" +
-         (tiling.colouring == Tiling::Colouring::parity ? ", mirror images are dark, their mirror images light"
-                                                        : ", copies are coloured by the number of mirrors on the way to them") +
-         (std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.copy->wedge.has_value(); })
-              ? ", copies are cut to what the eye sees of them"
-              : "") +
-         (options.labels ? ". Circles hold the orders of the corners, italic numbers count the walls" : "") + ".</desc>\n";
+         std::to_string(tiles.size()) + " drawn copies; " + chart_name(tiling, page) + ". ";
+  out += options.colors ? "Mirror images" : "The room itself is orange, mirror images";
+  out += tiling.colouring == Tiling::Colouring::parity ? options.colors ? " have the second colour" : " are dark, their mirror images light"
+                                                       : " and copies are coloured by the number of mirrors on the way to them";
+  if (std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.copy->wedge.has_value(); }))
+    out += ", copies are cut to what the eye sees of them";
+  if (options.labels) out += ". Circles hold the orders of the corners, italic numbers count the walls";
+  return out + ".</desc>\n";
+}
+
+std::string caption_text(const Tiling& tiling, const Page& page) {
+  return "<text" + attribute("x", page.width / 2) + attribute("y", page.height - 12 * page.unit) +
+         " text-anchor=\"middle\" font-family=\"Georgia, 'Times New Roman', serif\"" + attribute("font-size", 19 * page.unit) + " fill=\"" +
+         kInk + "\"><tspan font-weight=\"bold\">" + escaped(tiling.title) + "</tspan><tspan" + attribute("dx", 8 * page.unit) +
+         " fill-opacity=\"0.7\">— " + chart_name(tiling, page) + "</tspan></text>\n";
+}
+
+/// What is left of a page where copies are too small to be drawn, and the border to which everything is cut.
+struct Border {
+  std::string shape;  // without attributes and end
+  std::string clip;   // its name
+};
+
+Border border_of(const Page& page) {
+  Border border;
+  if (page.frame > 0) {
+    border.shape =
+        "<circle" + attribute("cx", page.middle.real()) + attribute("cy", page.middle.imag()) + attribute("r", page.scale * page.frame);
+  } else if (page.window) {
+    const Box& w = *page.window;
+    border.shape = "<rect" + attribute("x", w.left) + attribute("y", w.top) + attribute("width", w.right - w.left) +
+                   attribute("height", w.bottom - w.top);
+  }
+  if (!border.shape.empty()) border.clip = "orbc-frame-" + coordinate(page.width) + "-" + coordinate(page.height);
+  return border;
+}
+
+}  // namespace
+
+double caption_height(double width) { return kCaption * width / 1000; }
+
+std::string draw_tiling(const Tiling& tiling, const Page& page, double caption, const SvgOptions& options) {
+  const std::vector<Piece> pieces = outline_pieces(tiling.room);
+  const std::vector<Tile> tiles = visible_tiles(tiling, page, pieces, options.smallest);
+  const Border border = border_of(page);
+  const std::string ink = " stroke=\"" + std::string(kInk) + "\"", line_color = options.line_color.empty() ? kPaper : options.line_color;
+
+  std::string out = head(tiling, page, tiles, options);
   out += "<rect width=\"100%\" height=\"100%\" fill=\"" + std::string(kPaper) + "\"/>\n";
-  if (framed) {
-    out += "<clipPath id=\"" + clip + "\">" + circle(page, page.frame, "") + "</clipPath>\n";
-    out += circle(page, page.frame, " fill=\"" + haze(tiling.colouring) + "\"");
+  if (!border.clip.empty()) {
+    out += "<clipPath id=\"" + border.clip + "\">" + border.shape + "/>\n</clipPath>\n";
+    if (!tiling.room.orbifold.strip) out += border.shape + " fill=\"" + haze(tiling.colouring, options.colors) + "\"/>\n";
   }
-  out += "<g stroke=\"" + std::string(kPaper) + "\" stroke-linejoin=\"round\" fill-rule=\"evenodd\"" +
-         (framed ? " clip-path=\"url(#" + clip + ")\"" : "") + ">\n";
-  write_groups(out, grouped(tiles, tiling, options.tooltips));
+  out += "<g stroke=\"" + line_color + "\" stroke-linejoin=\"round\" fill-rule=\"evenodd\"" +
+         (border.clip.empty() ? "" : " clip-path=\"url(#" + border.clip + ")\"") + ">\n";
+  write_groups(out, grouped(tiles, tiling, page, options), page, options.lines);
+  write_motifs(out, tiles, tiling, page, options);
+  if (page.window) write_end_walls(out, tiles, tiling, page, pieces);
   for (const Tile& tile : tiles)
-    if (tile.copy->word.empty())
-      out += "<path d=\"" + tile.path.d + "\" fill=\"none\" stroke=\"" + kInk + "\"" +
-             attribute("stroke-width", std::clamp(0.012 * tile.path.diameter, 0.8, 2.4)) + "/>\n";
+    if (tile.copy->word.empty() && (options.labels || !options.colors))
+      out += "<path d=\"" + tile.path.d + "\" fill=\"none\"" + ink +
+             attribute("stroke-width", std::clamp(0.012 * tile.path.diameter, 0.8 * page.unit, 2.4 * page.unit)) + "/>\n";
+  if (options.cuts) out += cut_lines(tiling.room, page);
   out += "</g>\n";
-  if (framed) out += circle(page, page.frame, " fill=\"none\" stroke=\"" + std::string(kInk) + "\" stroke-width=\"1.6\"");
+  if (page.frame > 0) out += border.shape + " fill=\"none\"" + ink + attribute("stroke-width", 1.6 * page.unit) + "/>\n";
   if (tiling.room.space == Space::spherical && !page.straight)
-    out += circle(
-        page, 1,
-        " fill=\"none\" stroke=\"" + std::string(kInk) + "\" stroke-width=\"1.1\" stroke-dasharray=\"2 5\" stroke-linecap=\"round\"");
-  if (options.labels) {
-    write_labels(out, tiling, page);
-    out += "<text" + attribute("x", page.width / 2) + attribute("y", height - 12) +
-           " text-anchor=\"middle\" font-family=\"Georgia, 'Times New Roman', serif\" font-size=\"19\" fill=\"" + kInk +
-           "\"><tspan font-weight=\"bold\">" + escaped(tiling.title) + "</tspan><tspan dx=\"8\" fill-opacity=\"0.7\">— " +
-           chart_name(tiling) + "</tspan></text>\n";
-  }
-  out += "</svg>\n";
+    out += circle(page, 1,
+                  " fill=\"none\"" + ink + attribute("stroke-width", 1.1 * page.unit) + " stroke-dasharray=\"" + coordinate(2 * page.unit) +
+                      " " + coordinate(5 * page.unit) + "\" stroke-linecap=\"round\"");
+  if (page.half_plane)
+    out += "<path d=\"M" + coordinate(page.window->left) + " " + coordinate(page.window->bottom) + "H" + coordinate(page.window->right) +
+           "\" fill=\"none\"" + ink + attribute("stroke-width", 1.6 * page.unit) + "/>\n";
+  if (options.labels) out += labels(tiling.room, page);
+  if (options.labels && caption > 0) out += caption_text(tiling, page);
+  return out + "</svg>\n";
+}
+
+std::vector<driver::File> write_svg(const Tiling& tiling, const SvgOptions& options) {
+  Page page = make_page(tiling, outline_pieces(tiling.room), options.width);
+  const double caption = options.labels ? kCaption * page.unit : 0;
+  page.height += caption;
   std::vector<driver::File> files;
-  files.push_back({"", std::move(out)});
+  files.push_back({"", draw_tiling(tiling, page, caption, options)});
   return files;
 }
 

@@ -30,7 +30,7 @@ with folder() as name:
 
     # help, version, man page, completions
     help_text = orbc('--help').stdout.decode()
-    for command in ('info', 'enumerate', 'new', 'check', 'compile', 'render', 'trace', 'verify'):
+    for command in ('info', 'enumerate', 'svg', 'new', 'check', 'compile', 'render', 'trace', 'verify'):
         check(command in help_text, f'--help names {command}')
         done = orbc(command, '--help')
         check(done.returncode == 0 and 'Examples' in text(done), f'{command} --help has examples')
@@ -59,6 +59,10 @@ with folder() as name:
     check(facts['chi'] == '-1/84' and facts['space'] == 'hyperbolic' and facts['copies_per_length'][37] == 2818 and abs(facts['growth_rate'] - 1.17628081825991750) < 1e-15, 'info *237')
     keys = 'notation canonical space chi area group_order growth_rate copies_per_length sides angles inradius moduli'.split()
     check(all(k in facts for k in keys), 'info has all its keys')
+    check(len(facts['corners']) == 3 and len(facts['copies']) == 20 and [copy['word'] for copy in facts['copies'][:4]] == [[], [1], [2], [3]], 'info tells corners and the first copies')
+    check(len(json.loads(orbc('info', '*235', '--json', '--copies', '500').stdout)['copies']) == 120, 'and all of a finite group')
+    last = json.loads(orbc('info', '*22∞', '--json', '--copies', '9').stdout)['copies'][-1]
+    check(3 not in last['word'] and len(last['matrix']) == 3, 'words of the half strip leave its end wall alone')
     facts = json.loads(orbc('info', '*235', '--json').stdout)
     check(facts['group_order'] == 120 and facts['growth_rate'] is None, 'info *235')
     facts = json.loads(orbc('info', '*22222', '--json', '--shape', 'paper', '--cut', '1.4').stdout)
@@ -78,7 +82,7 @@ with folder() as name:
     globbed.mkdir()
     for file in ('a22', 'b22', 'c', 'd'):
         (globbed / file).touch()
-    for command in ('info *22', 'info *', 'new *22'):
+    for command in ('info *22', 'info *', 'new *22', 'svg *22'):
         done = run(['bash', '-c', f'cd {globbed} && {ORBC} {command}'])
         check(done.returncode == 2 and b'quote the notation' in done.stderr and b'a22' in done.stderr, f'orbc {command} among files: {done.stderr.decode()[:200]}')
     done = run(['bash', '-c', f'cd {globbed} && {ORBC} info a*'])
