@@ -192,7 +192,8 @@ class PathReader {
     const double grow = std::max(1.0, math::abs(half));  // radii that are too small are enlarged
     const double height = std::sqrt(std::max(0.0, grow * grow - std::norm(half)));
     const Complex centre = p + half + (large != sweep ? 1.0 : -1.0) * Complex(0, 1) * height * half / math::abs(half);
-    double angle = math::arg((q - centre) / (p - centre));
+    const Complex turned = (q - centre) / (p - centre);
+    double angle = math::atan2(turned.imag(), turned.real());
     if (sweep && angle < 0) angle += 2 * std::numbers::pi;
     if (!sweep && angle > 0) angle -= 2 * std::numbers::pi;
     const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(angle) / (std::numbers::pi / 2) * fineness_)));

@@ -172,7 +172,9 @@ TEST_CASE("pictures carry title, description, orders and walls", "[svg]") {
                  "<title>*2 3 12</title>\n<desc>The mirror room *2 3 12 and its 7 drawn copies; hyperbolic plane, Poincaré disk. The room "
                  "itself is orange"));
   for (const char* label : {">12</text>", ">3</text>", ">2</text>", ">1</text>"}) CHECK(contains(text, label));
-  const std::string bare = svg::write_svg(tiling_of("*2 3 12"), {.labels = false, .tooltips = false})[0].bytes;
+  svg::SvgOptions plain;
+  plain.labels = plain.tooltips = false;
+  const std::string bare = svg::write_svg(tiling_of("*2 3 12"), plain)[0].bytes;
   CHECK_FALSE(contains(bare, "<text"));
   CHECK(bare.find("<title>", bare.find("<title>") + 1) == std::string::npos);
 }
@@ -194,7 +196,9 @@ TEST_CASE("copies on further sheets and copies too small to see are left out", "
   copy.sheet = 1;
   tiling.copies.push_back(copy);
   CHECK(svg::write_svg(tiling)[0].bytes == all);
-  CHECK(contains(svg::write_svg(tiling, {.smallest = 1e6})[0].bytes, " 0 drawn copies"));
+  svg::SvgOptions large_only;
+  large_only.smallest = 1e6;
+  CHECK(contains(svg::write_svg(tiling, large_only)[0].bytes, " 0 drawn copies"));
 }
 
 TEST_CASE("the room, mirror images and their images differ in colour, by parity and by length", "[svg]") {
