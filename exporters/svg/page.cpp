@@ -18,9 +18,6 @@ using geometry::Point;
 using geometry::Space;
 using Complex = std::complex<double>;
 
-constexpr double kMargin = 16;
-constexpr double kStereographicFrame = 1.8;  // the equator's radius is 1: all but 58° around the antipode
-constexpr double kGnomonicFrame = 2;         // 63° around the centre
 constexpr double kFlatArc = 0.02;            // page units: a flatter arc cannot be told from its chord
 
 struct Extent {

@@ -9,6 +9,10 @@
 
 namespace orbc::svg {
 
+inline constexpr double kMargin = 16;                ///< on a page 1000 wide
+inline constexpr double kStereographicFrame = 1.8;   ///< chart radius; the equator's is 1: all but 58° around the antipode
+inline constexpr double kGnomonicFrame = 2;          ///< 63° around the centre
+
 /// A rectangle of the page.
 struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;

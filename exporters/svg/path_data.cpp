@@ -20,6 +20,12 @@ using Complex = std::complex<double>;
 constexpr std::size_t kMaxPoints = 20000;  // of a motif; every copy repeats them
 constexpr double kLargest = 1e9;
 
+/// From one direction to another, in (−π, π].
+double turn_between(Complex from, Complex to) {
+  const Complex turn = std::conj(from) * to;
+  return math::atan2(turn.imag(), turn.real());
+}
+
 class PathReader {
  public:
   PathReader(std::string_view data, int fineness) : data_(data), fineness_(fineness) {}
@@ -192,8 +198,7 @@ class PathReader {
     const double grow = std::max(1.0, math::abs(half));  // radii that are too small are enlarged
     const double height = std::sqrt(std::max(0.0, grow * grow - std::norm(half)));
     const Complex centre = p + half + (large != sweep ? 1.0 : -1.0) * Complex(0, 1) * height * half / math::abs(half);
-    const Complex turned = (q - centre) / (p - centre);
-    double angle = math::atan2(turned.imag(), turned.real());
+    double angle = turn_between(p - centre, q - centre);
     if (sweep && angle < 0) angle += 2 * std::numbers::pi;
     if (!sweep && angle > 0) angle -= 2 * std::numbers::pi;
     const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(angle) / (std::numbers::pi / 2) * fineness_)));

@@ -1,6 +1,7 @@
 // Pages for whole tilings: how large the room lies on them is chosen here.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "compiler/base/elementary.h"
 #include "exporters/svg/page.h"
@@ -11,8 +12,6 @@ namespace {
 using Complex = std::complex<double>;
 using geometry::Space;
 
-constexpr double kMargin = 16;                                   // all in page units
-constexpr double kStereographicFrame = 1.8, kGnomonicFrame = 2;  // chart radii: as far as the sphere is shown
 constexpr double kRoomsAcross = 4.2;                             // circumradii of a flat room from the middle to the edge of the page
 constexpr double kStripCopies = 8.4;                             // widths of a strip across the page
 constexpr double kHalfPlaneAspect = 0.6;
@@ -26,7 +25,7 @@ Complex level(const room::Room& room, std::size_t wall) {
 bool is_rectangle(const room::Room& room) {
   return room.space == Space::euclidean && room.walls.size() == 4 &&
          std::all_of(room.corners.begin(), room.corners.end(),
-                     [](const room::Corner& c) { return std::fabs(c.angle - math::acos(0.0)) < 1e-12; });
+                     [](const room::Corner& c) { return std::fabs(c.angle - std::numbers::pi / 2) < 1e-12; });
 }
 
 void lay_flat(Page& page, const room::Room& room, const PageSize& size, double margin) {
