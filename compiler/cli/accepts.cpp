@@ -9,6 +9,8 @@
 namespace orbc::cli {
 namespace {
 
+constexpr std::size_t kNameColumns = 34, kHelpColumns = 120;  // of --help
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -17,6 +19,19 @@ std::vector<std::string> split(const std::string& text, char separator) {
     begin = end + 1;
   }
   return parts;
+}
+
+// In lines of so many columns; the formatter indents all but the first.
+std::string in_columns(const std::string& text, std::size_t columns) {
+  std::string out;
+  std::size_t column = 0;
+  for (const std::string& word : split(text, ' ')) {
+    if (column > 0 && column + 1 + word.size() > columns) out += '\n', column = 0;
+    else if (column > 0) out += ' ', ++column;
+    out += word;
+    column += word.size();
+  }
+  return out;
 }
 
 class HelpFormatter final : public CLI::Formatter {
@@ -33,7 +48,7 @@ class HelpFormatter final : public CLI::Formatter {
     std::vector<std::string> more;
     if (taken.bounds) more.push_back(fmt::format("{} to {}", taken.bounds->least, taken.bounds->most));
     if (!option->get_default_str().empty()) more.push_back("default: " + option->get_default_str());
-    return more.empty() ? text : fmt::format("{} ({})", text, fmt::join(more, "; "));
+    return in_columns(more.empty() ? text : fmt::format("{} ({})", text, fmt::join(more, "; ")), kHelpColumns - kNameColumns);
   }
 
   std::string make_option_name(const CLI::Option* option, bool positional) const override {
@@ -97,7 +112,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 void format_help(CLI::App& app) {
   const auto formatter = std::make_shared<HelpFormatter>();
-  formatter->column_width(34);
+  formatter->column_width(kNameColumns);
   app.formatter(formatter);
   for (CLI::App* command : app.get_subcommands(nullptr)) command->formatter(formatter);
 }

@@ -66,7 +66,7 @@ std::string bash_reply(const Wanted& want) {
   switch (want.values) {
     case Values::words: return fmt::format("_orbc_words '{}'", fmt::join(want.words, " "));
     case Values::scenes: return "_orbc_scenes";
-    case Values::files: return "COMPREPLY=($(compgen -f -- \"$current\")); compopt -o filenames 2>/dev/null";
+    case Values::files: return "_orbc_files";
     case Values::none: break;
   }
   return ":";
@@ -86,13 +86,14 @@ std::string bash_case(const CLI::App& command) {
                      command.get_name(), values, flags, word ? bash_reply(wanted(*word)) : ":");
 }
 
-// COMP_WORDS splits --quality=fine at the equal sign; words are taken with the sign and cut again. A star in a notation is quoted for the
-// shell when the word has not been begun in quotes.
+// COMP_WORDS splits --quality=fine at the equal sign: it is skipped. A word that is begun without a quote is quoted for the shell, which
+// would look for files of a notation's name.
 constexpr const char* kBash = R"(_orbc_words() {
   local word
   COMPREPLY=()
   for word in $1; do
-    [[ ${word#\\} == "$bare"* || $word == "$current"* ]] && COMPREPLY+=("$word")
+    [[ $word == "$bare"* ]] || continue
+    if [[ $current == [\'\"]* ]]; then COMPREPLY+=("$word"); else COMPREPLY+=("$(printf %q "$word")"); fi
   done
 }
 _orbc_scenes() {
@@ -103,12 +104,19 @@ _orbc_scenes() {
   done < <(compgen -f -- "$current")
   compopt -o filenames 2>/dev/null
 }
+_orbc_files() {
+  local file
+  COMPREPLY=()
+  while IFS= read -r file; do COMPREPLY+=("$file"); done < <(compgen -f -- "$current")
+  compopt -o filenames 2>/dev/null
+}
 _orbc() {
+  local -
+  set -f
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} bare
   if [[ $current == = ]]; then current=
   elif [[ $previous == = ]]; then previous=${COMP_WORDS[COMP_CWORD-2]}; fi
   bare=${current#[\'\"\\]}
-  set -f
 )";
 
 std::string bash(const CLI::App& app) {
@@ -120,7 +128,7 @@ std::string bash(const CLI::App& app) {
   std::vector<std::string> own;
   for (const CLI::Option* option : options_of(app))
     for (const std::string& name : dashed(*option)) own.push_back(name);
-  return fmt::format("{}  if (( COMP_CWORD == 1 )); then _orbc_words '{} {}'; set +f; return; fi\n  _orbc_command; set +f\n}}\n"
+  return fmt::format("{}  if (( COMP_CWORD == 1 )); then _orbc_words '{} {}'; else _orbc_command; fi\n}}\n"
                      "_orbc_command() {{\n  case ${{COMP_WORDS[1]}} in\n{}  esac\n}}\ncomplete -F _orbc orbc\n",
                      kBash, commands, fmt::join(own, " "), cases);
 }
@@ -182,7 +190,7 @@ std::string fish_text(const std::string& text) { return replaced(replaced(first_
 
 std::string fish_values(const Wanted& want) {
   switch (want.values) {
-    case Values::words: return fmt::format(" -x -a '{}'", fmt::join(want.words, " "));
+    case Values::words: return fmt::format(" -x -a '{}'", replaced(fmt::format("{}", fmt::join(want.words, " ")), "*", "\\*"));
     case Values::scenes: return " -k -x -a '(__fish_complete_suffix .yaml)'";
     case Values::files: return " -r -F";
     case Values::none: break;

@@ -19,7 +19,6 @@ void add_set(CLI::App& command, std::vector<std::string>& set) {
       .add_option("--set", set,
                   "Say any key of the scene by its path, as often as wanted: camera.fov=60deg, 'objects.ball.at.polar=[0.2,30deg]', "
                   "room.walls.2.color=brown, lights.1.power=9; objects go by name or number; nothing behind = removes the key")
-      ->expected(1)
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
 }

@@ -49,7 +49,8 @@ std::string wrapped(const std::string& text, std::size_t indent) {
 }
 
 std::string explanation(const Explained& row) {
-  return fmt::format("{}\n  cause: {}\n  cure:  {}\n", row.code, wrapped(row.cause, 9), wrapped(row.cure, 9));
+  const std::string cause = fmt::format("{}\n  cause: {}\n", row.code, wrapped(row.cause, 9));
+  return row.cure.empty() ? cause : fmt::format("{}  cure:  {}\n", cause, wrapped(row.cure, 9));
 }
 
 std::string list_of(const std::vector<Explained>& rows) {

@@ -25,6 +25,7 @@ struct Scan {
   std::vector<Given> options;
   std::vector<std::string> words;   // neither options nor their values
   std::string unknown;              // the first option that the command does not have
+  std::string one_dash;             // the first word such as -output, which is read as -o utput
 };
 
 bool looks_like_option(const std::string& word) {
@@ -36,6 +37,7 @@ bool takes_value(const CLI::Option& option) { return option.get_items_expected_m
 // One letter after the other: -qv, -o FILE, -oFILE.
 void scan_letters(const CLI::App& command, const std::vector<std::string>& words, std::size_t& at, Scan& scan) {
   const std::string word = words[at];
+  if (word.size() > 2 && scan.one_dash.empty() && command.get_option_no_throw("-" + word)) scan.one_dash = word;
   for (std::size_t i = 1; i < word.size(); ++i) {
     const std::string name = std::string("-") + word[i];
     const CLI::Option* option = command.get_option_no_throw(name);
@@ -90,7 +92,8 @@ std::string unknown_option(const CLI::App& app, const CLI::App& command, const s
   std::string text = fmt::format("there is no option {}", name);
   const std::vector<std::string> known = option_names(command);
   if (std::find(known.begin(), known.end(), "-" + name) != known.end()) return fmt::format("{}; did you mean -{}?", text, name);
-  if (const std::string nearest = nearest_word(name, known); !nearest.empty()) return fmt::format("{}; did you mean {}?", text, nearest);
+  if (const std::string nearest = nearest_word(name, known); name.size() > 3 && !nearest.empty())
+    return fmt::format("{}; did you mean {}?", text, nearest);
   std::vector<std::string> owners;
   for (const CLI::App* other : commands_of(app))
     if (other->get_option_no_throw(name)) owners.push_back("orbc " + other->get_name());
@@ -146,6 +149,7 @@ std::string message_of(const Program& program, const Command& command, const CLI
                        const std::vector<std::string>& words) {
   const CLI::App& app = *command.options;
   const Scan scan = scan_words(app, words);
+  if (!scan.one_dash.empty()) return unknown_option(program.app, app, scan.one_dash);
   if (!scan.unknown.empty()) return unknown_option(program.app, app, scan.unknown);
   for (const Given& given : scan.options) {
     if (takes_value(*given.option) && !given.has_value)

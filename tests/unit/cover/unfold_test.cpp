@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compiler/cover/plan.h"
+#include "compiler/cover/reach.h"
 #include "compiler/notation/parse.h"
 #include "compiler/room/realise.h"
 
@@ -231,4 +232,17 @@ TEST_CASE("the plan counts exactly and names what fits", "[cover]") {
   REQUIRE(!walked);
   CHECK(walked.error().front().code == "cover.too-much");
   CHECK(cover::plan(plain, eye, {4, 0, 0, {}})->copies == copies_of(plain, {4, 0, 0, {}}).size());
+}
+
+TEST_CASE("one reach for all copies needs mirrors that are alike and corners that are integers", "[cover]") {
+  auto mixed = room_of_mirrors("*22222");
+  mixed.mirrors[1].reflectance = 0.5;
+  const auto differing = cover::reach_of(mixed, {2, 0, 0, {}});
+  REQUIRE_FALSE(differing);
+  CHECK(differing.error().front().code == "cover.mixed-mirrors");
+  auto real = room_of_mirrors("*22222");
+  real.room.orbifold.corners[0] = Rational(5, 2);
+  const auto overlapping = cover::reach_of(real, {2, 0, 0, {}});
+  REQUIRE_FALSE(overlapping);
+  CHECK(overlapping.error().front().code == "cover.not-an-orbifold");
 }
