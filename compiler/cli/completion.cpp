@@ -88,7 +88,7 @@ std::string bash_case(const CLI::App& command) {
 
 // COMP_WORDS splits --quality=fine at the equal sign: it is skipped. A word that is begun without a quote is quoted for the shell, which
 // would look for files of a notation's name.
-constexpr const char* kBash = R"(_orbc_words() {
+constexpr const char* kBash = R"bash(_orbc_words() {
   local word
   COMPREPLY=()
   for word in $1; do
@@ -117,7 +117,7 @@ _orbc() {
   if [[ $current == = ]]; then current=
   elif [[ $previous == = ]]; then previous=${COMP_WORDS[COMP_CWORD-2]}; fi
   bare=${current#[\'\"\\]}
-)";
+)bash";
 
 std::string bash(const CLI::App& app) {
   std::string commands, cases;

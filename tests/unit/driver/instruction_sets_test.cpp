@@ -31,9 +31,7 @@ cover: {max_bounces: 2}
 driver::Opened open(const std::string& notation) {
   const auto path = std::filesystem::path(ORBC_BINARY_DIR) / "instruction_sets_test.yaml";
   std::ofstream(path) << "orbc: 1\norbifold: \"" << notation << "\"" << kRoom;
-  driver::Overrides overrides;
-  overrides.quality = scene::BakeQuality::draft;
-  return std::move(driver::open_scene(path.string(), overrides)).value();
+  return std::move(driver::open_scene(path.string(), {{"<test>", "bake.quality=draft"}})).value();
 }
 
 /// All that an exporter gets and all that the tracer draws, as bytes; what surfaces pass on to each other in the picture alone.
