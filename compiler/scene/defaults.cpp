@@ -75,7 +75,7 @@ notation::Orbifold rounded_up(const notation::Orbifold& orbifold) {
 }  // namespace
 
 int default_max_bounces(const notation::Orbifold& orbifold, int level_mirrors) {
-  constexpr int kFarthest = 64;   // *237, whose copies grow most slowly, has 200 at 17
+  constexpr int kFarthest = 64;   // *237, whose copies grow most slowly, has 198 at 11
   const int sign = curvature_sign(orbifold);
   if (sign < 0) return bounces_within(notation::copies_per_length(rounded_up(orbifold), kFarthest), level_mirrors, kHyperbolicCopies);
   if (sign == 0 || !notation::is_orbifold(orbifold)) return kUsual;

@@ -65,6 +65,8 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
   };
   const Case c = GENERATE(Case{"tests/bench/scale.yaml", 40, 0.8}, Case{"tests/scenes/verify/triangle-unequal.yaml", 40, 0.2});
   auto opened = open(c.path, c.max_bounces);
+  // Seen at 0.97^40 it is as dark as what is around it: near black, steps of sRGB are small.
+  opened.scene.cover.background = {0.049, 0.060, 0.085};
   const Executor executor = driver::parallel_executor();
   const std::vector<scene::Color> truth = driver::trace(opened, {}, executor).color;
   std::uint64_t copies = ~std::uint64_t{0};
@@ -76,7 +78,8 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
     const driver::Report& r = compiled->report;
     INFO(c.path << ", min_pixels " << pixels << ": " << r.copies << " copies, " << r.curtains << " curtains, weight " << r.weight_merged
                 << ", mean " << off.mean << ", smooth " << off.smooth);
-    CHECK((r.curtains > 0) == (pixels > 0 && r.copies < copies));
+    CHECK(r.curtains > 0);   // where paths are cut off, and where copies are left out
+    CHECK((r.weight_merged > 0) == (pixels > 0 && r.copies < copies));
     CHECK(off.smooth < c.error);
     CHECK(off.mean < 2 * c.error);
     // Holes would cost as much as what was to be seen there.

@@ -87,7 +87,7 @@ const HintCase kHints[] = {
      "orbc: 1\norbifold: \"*23456789(10)(11)\"\nlights: [{at: {polar: [0.1, 0deg]}, radius: 0.01, power: 1000}]\nbake: {mirrors: @}\n",
      "12", "light.too-many-images", "^`bake: \\{mirrors: (\\d+)\\}` has few enough$"},
     {"a stretched panorama", "orbc: 1\norbifold: \"*2222\"\ncamera: {projection: panorama, size: @}\n", "[400, 300]", "scene.stretched",
-     "size: (\\[\\d+, \\d+\\])$"},
+     "size: (\\[\\d+, \\d+\\])"},
     {"a corner that is no integer", "orbc: 1\norbifold: \"*(3/2)(12)(12)\"\n@\n", "", "notation.non-orbifold-corner",
      "(allow_non_orbifold: true)$"},
     {"a single corner", "orbc: 1\norbifold: \"@\"\n", "*7", "notation.bad-orbifold", "two equal corners are (\\S+)$"},

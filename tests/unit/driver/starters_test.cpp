@@ -72,7 +72,7 @@ void draw_starter(const notation::Orbifold& orbifold, const StarterFile& file, c
 /// All of few corners; of more a sample with a seed.
 std::vector<notation::Orbifold> symbols_up_to_order_12() {
   std::vector<notation::Orbifold> all;
-  for (int corners = 0; corners <= 4; ++corners) {
+  for (int corners = 1; corners <= 4; ++corners) {   // one corner: *
     const auto listed = notation::enumerate(corners, 12, [&](const notation::Orbifold& o, geometry::Space) {
       all.push_back(o);
       return true;
