@@ -20,6 +20,7 @@ PAGE = ROOT / 'docs/scene.md'
 
 BALL = 'objects=[{sphere: {radius: 0.1}, at: {polar: [0.1, 0deg], z: 0.1}}]'
 STATUE = 'objects=[{mesh: meshes/statue.ply, size: 0.2, at: centre}]'
+FLAG = 'objects=[{mesh: flag.obj, size: 0.2, at: {polar: [0.3, 90deg]}}]'  # with texture coordinates
 LAMP = 'lights=[{at: {polar: [0, 0deg], z: 0.8}}]'
 PLAIN_WALL = 'room.walls.1.mirror={span: [0.1, 0.4]}'
 
@@ -72,12 +73,12 @@ BESIDE = {
     'objects.1.material.roughness': ['objects.1.material={kind: metal}'],
     'objects.1.material.index': ['objects.1.material={kind: glass}'],
     'objects.1.material.emission': ['objects.1.material={kind: emissive}'],
-    'objects.1.material.texture': [STATUE],
-    'objects.1.material.opacity_mask': [STATUE],
-    'objects.1.material.cutoff': [STATUE, 'objects.1.material.opacity_mask=leaf.png'],
+    'objects.1.material.texture': [FLAG],
+    'objects.1.material.opacity_mask': [FLAG],
+    'objects.1.material.cutoff': [FLAG, 'objects.1.material.opacity_mask=leaf.png'],
     'objects.1.mesh': ['objects=[{size: 0.2}]'],
     'objects.1.up': [STATUE],
-    'objects.1.size': [STATUE],
+    'objects.1.size': [STATUE, 'camera.at={polar: [0.4, 200deg], z: 0.5}'],
     'objects.1.embedding': [STATUE],
     'objects.1.at.toward': ['objects.1.at={distance: 0.2}'],
     'objects.1.at.distance': ['objects.1.at={toward: corner 2}'],
@@ -88,7 +89,6 @@ BESIDE = {
     'camera.lens': ['objects=[{mesh: meshes/statue.ply, size: 0.2, at: centre}]', 'camera.at={polar: [0.3, 40deg], z: 0.5}'],
     'camera.lens.focus': ['objects=[{mesh: meshes/statue.ply, size: 0.2, at: centre}]'],
     'camera.lens.radius': ['camera.lens={focus_distance: 0.5}'],
-    'camera.look_at.azimuth': ['camera.look_at='],
 }
 BESIDE.update({f'objects.1.{shape}': ['objects=[{at: {polar: [0, 0deg], z: 0.05}}]'] for shape in ('sphere', 'cylinder', 'box', 'torus', 'torus_knot')})
 BESIDE['objects.1.beam'] = ['objects=[{}]']
@@ -232,6 +232,9 @@ def try_examples(program):
         (Path(folder) / 'meshes').symlink_to(ROOT / 'examples/meshes')
         for name in ('tiles.png', 'leaf.png'):
             (Path(folder) / name).write_bytes(white_picture())
+        corners = ((0, 0), (1, 0), (1, 1), (0, 1))
+        points = ''.join(f'v {x} 0 {z}\nvt {x} {z}\n' for x, z in corners)
+        (Path(folder) / 'flag.obj').write_text(points + 'f 1/1 2/2 3/3 4/4\n')
         for _, pointer, path, context in SECTIONS:
             for key, spec in keys_of(pointer)[0].items():
                 where = f'{path}.{key}' if path else key

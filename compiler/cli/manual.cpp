@@ -106,12 +106,23 @@ orbc explain scene.no\-effect
 .fi
 )";
 
+// The character of UTF-8 that begins at `at` as roff names it, which reads ASCII: \[u221E]. Moves `at` to its last byte.
+std::string named_character(const std::string& text, std::size_t& at) {
+  const auto lead = static_cast<unsigned char>(text[at]);
+  const std::size_t more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
+  unsigned code = lead & (0x3Fu >> more);
+  for (std::size_t i = 0; i < more && at + 1 < text.size(); ++i) code = code << 6 | (static_cast<unsigned char>(text[++at]) & 0x3Fu);
+  return fmt::format("\\[u{:04X}]", code);
+}
+
 // Text as roff shows it: dashes that can be copied, straight quotes, no line that begins with a request.
 std::string roff(const std::string& text) {
   std::string out;
   bool line_start = true;
-  for (const char c : text) {
-    if (c == '\\') out += "\\e";
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (static_cast<unsigned char>(c) >= 0x80) out += named_character(text, at);
+    else if (c == '\\') out += "\\e";
     else if (c == '-') out += "\\-";
     else if (c == '\'') out += "\\(aq";
     else if (c == '`') out += "\\(ga";

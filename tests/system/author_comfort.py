@@ -151,9 +151,10 @@ def man_page():
     page = orbc('man').stdout
     for section in ('NAME', 'SYNOPSIS', 'DESCRIPTION', 'COMMANDS', 'EXIT STATUS', 'FILES', 'ENVIRONMENT', 'EXAMPLES'):
         check(f'.SH {section}\n'.encode() in page, f'the man page has {section}')
-    check(b'draft|normal|fine' in page and b'Default: 0.25' in page and b'From 1 to 65536' in page, 'the man page has choices, defaults and bounds')
+    check(b'draft|normal|fine' in page and b'Default: 4GiB' in page and b'From 1 to 65536' in page, 'the man page has choices, defaults and bounds')
     for command in ('info', 'check', 'render', 'explain', 'schema', 'completion', 'man'):
         check(f'.SS orbc {command}\n'.encode() in page, f'the man page has {command}')
+    check(all(byte < 0x80 for byte in page), 'the man page is ASCII: every roff reads it')
     if shutil.which('groff'):
         done = run(['groff', '-man', '-Tutf8', '-ww', '-z'], input=page)
         check(done.returncode == 0 and not done.stderr, f'groff reads the man page {done.stderr.decode()[:200]}')
