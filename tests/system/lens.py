@@ -1,12 +1,11 @@
-"""The tracer's depth of field in a flat room is that of Blender's camera, which was not written here."""
+"""Depth of field: what is said of it, and that the tracer's in a flat room is that of Blender's camera, which was not written here."""
 import os
 import pathlib
 
 import numpy as np
 
-from helpers import BIN, SCRIPTS, check, done, finish, folder, need, picture
+from helpers import BIN, SCRIPTS, check, done, finish, folder, need, picture, run
 
-need('blender')
 RADIUS, FOCUS = 0.05, 1.6
 # A narrow view: Blender's focus is a plane, orbc's a sphere around the eye.
 SCENE = """orbc: 1
@@ -41,6 +40,15 @@ with folder() as where:
     pathlib.Path(path('lens.yaml')).write_text(SCENE.replace('LENS', lens))
     pathlib.Path(path('sharp.yaml')).write_text(SCENE.replace('LENS', ''))
     pathlib.Path(path('draw.py')).write_text(DRAW)
+    few = run([BIN / 'orbc', 'trace', path('lens.yaml'), '-o', path('few.png'), '--samples', '4', '--size', '16x12'])
+    check(few.returncode == 0 and b'warning[cli.few-lens-samples] 4 samples of a pixel look' in few.stderr, 'few samples of a lens are called so')
+    enough = run([BIN / 'orbc', 'trace', path('lens.yaml'), '-o', path('few.png'), '--samples', '16', '--size', '16x12'])
+    check(enough.returncode == 0 and b'few-lens-samples' not in enough.stderr, 'sixteen are not')
+    export = run([BIN / 'orbc', 'compile', path('lens.yaml'), '-o', path('x.pov')])
+    check(export.returncode == 0 and b'warning[driver.no-lens]' in export.stderr, 'an export says that it has no lens')
+    around = run([BIN / 'orbc', 'trace', path('lens.yaml'), '-o', path('few.png'), '--projection', 'panorama', '--size', '16x8'])
+    check(around.returncode == 0 and around.stderr.count(b'scene.no-effect') >= 2 and b'few-lens' not in around.stderr, 'a panorama has neither lens nor roll, and says so')
+    need('blender')
     for name in ('lens', 'sharp'):
         done(BIN / 'orbc', 'trace', path(name + '.yaml'), '-o', path(name + '.png'), '--samples', '256', '-q')
     done(BIN / 'orbc', 'compile', path('sharp.yaml'), '-o', path('room.glb'), '-q')
