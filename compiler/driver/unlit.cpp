@@ -16,7 +16,7 @@ namespace {
 double reach(const Opened& opened) {
   const room::Room& room = opened.room->room;
   const double wide = room.inradius > 0 ? room.inradius : room.orbifold.strip ? opened.scene.room.shape.scale : room.circumradius / 2;
-  return std::min(wide, 1.5 * opened.scene.room.height);
+  return wide;
 }
 
 // Values as the hint writes them: to two digits.
@@ -24,6 +24,15 @@ double rounded(double value) {
   if (value <= 0) return 0;
   const double scale = math::pow(10.0, 1 - std::floor(math::log10(value)));
   return std::round(value * scale) / scale;
+}
+
+// What a lamp at height z over the middle must give to light floor and walls: at their foot its light is Φz/(4π(z²+ρ²)^(3/2)), where
+// ρ measures how light spreads in this space, and the images in near walls add to it; but no more than 5 times white just below it.
+// The factors are those for which pictures of rooms of all kinds come out right (measured).
+double power_of(const Opened& opened, double z) {
+  const double spread = geometry::sin_k(opened.room->room.space, reach(opened));
+  const double slant = math::hypot(z, spread), steep = std::min(z / spread, 3.0);
+  return std::min(28 * slant * slant * slant / (z * (1 + 1.5 * steep * steep)), 60 * z * z) / opened.scene.exposure;
 }
 
 bool hangs_freely(const Opened& opened, const scene::Lamp& lamp) {
@@ -44,8 +53,7 @@ std::optional<scene::Lamp> free_lamp(const Opened& opened) {
         const double z = rounded(part * height);
         lamp.place.floor = scene::AtPolar{rounded(aside * near), Angle::from_degrees(turn)};
         lamp.place.z = z;
-        // Φ/(4πz²) on the floor below, and the lamp's images add as much again or more the nearer the mirrors are: nearly white.
-        lamp.power = rounded(14 * z * near / opened.scene.exposure);
+        lamp.power = rounded(power_of(opened, z));
         if (hangs_freely(opened, lamp)) return lamp;
       }
   return std::nullopt;
