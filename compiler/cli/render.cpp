@@ -140,9 +140,10 @@ Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, con
 
 int render(const RenderArguments& arguments, const Common& common) {
   RenderArguments a = arguments;
-  a.samples = samples_of(arguments);
   const bool here = a.engine == "tracer";
   const PictureFormat format = picture_format_of(a.compile.output, here, fmt::format("pictures of {} have 8 bits", a.engine));
+  if (format == PictureFormat::exr) a.pass = "color";   // it holds all passes, whichever is asked for
+  a.samples = samples_of(a);
   keep_standard_output_apart(a.compile.output, common);
   if (a.engine == "povray") (void)side_of(a.samples);
   auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));

@@ -20,7 +20,7 @@ struct PovOptions {
 /// Source: renderers study §2–4: assumed_gamma 1 and adc_bailout 0 give exact colours; the spherical camera wants right and up negated.
 [[nodiscard]] std::vector<driver::File> write_pov(const driver::Product& product, const PovOptions& options = {});
 
-/// About how many bytes that takes, without the atlas. Error: 10 %.
+/// About how many bytes that takes, without the atlas. Error: 15 %.
 [[nodiscard]] std::uint64_t bytes_of(const driver::Amount& amount);
 
 }  // namespace orbc::pov

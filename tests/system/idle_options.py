@@ -6,6 +6,7 @@ What is told is true: with and without the option the same bytes are made. What 
 import pathlib
 import re
 import shutil
+import sys
 
 from helpers import BIN, check, finish, folder, run
 
@@ -60,7 +61,7 @@ TABLE = [
 ]
 SEEN_IN_PICTURES = {'--pass', '--atlas', '--samples'}
 # Neither what is made, nor where: how the program runs, what it prints, which command it is.
-ABOUT_RUNNING = {'--help', '--quiet', '--verbose', '--json', '--threads', '--output', '--format', '--engine', '--plan', '--set'}
+ABOUT_RUNNING = {'--help', '--quiet', '--verbose', '--json', '--threads', '--output', '--format', '--engine', '--plan', '--set', '--nodes-per-object'}
 VERIFY_ALONE = {'--blender', '--within', '--threshold', '--off-edge', '--difference', '--keep'}
 
 
@@ -100,7 +101,7 @@ with folder() as name:
         return made[stem, output, tuple(engine), command, tuple(more)]
 
     for option, argument, idle_lit, idle_plain in TABLE:
-        for stem, idle in (('lit', idle_lit), ('plain', idle_plain)):
+        for stem, idle in (('lit', idle_lit), ('plain', idle_plain)) if 'keys' not in sys.argv[2:] else ():
             for use in EVERYWHERE:
                 command, output, engine = use
                 if option not in listed[command] or engine and (stem == 'lit' or option not in SEEN_IN_PICTURES):
