@@ -48,7 +48,9 @@ with folder() as where:
     check(export.returncode == 0 and b'warning[driver.no-lens]' in export.stderr, 'an export says that it has no lens')
     around = run([BIN / 'orbc', 'trace', path('lens.yaml'), '-o', path('few.png'), '--projection', 'panorama', '--size', '16x8'])
     check(around.returncode == 0 and around.stderr.count(b'scene.no-effect') >= 2 and b'few-lens' not in around.stderr, 'a panorama has neither lens nor roll, and says so')
-    need('blender')
+    need('blender', 'povray')
+    compared = run([BIN / 'orbc', 'verify', path('lens.yaml'), '-v', '--size', '40x30', '--threshold', '0.9', '--off-edge', '1'])
+    check(compared.returncode == 0 and b'note[cli.lens-left-out]' in compared.stderr, 'verify compares two pinholes, and says so')
     for name in ('lens', 'sharp'):
         done(BIN / 'orbc', 'trace', path(name + '.yaml'), '-o', path(name + '.png'), '--samples', '256', '-q')
     done(BIN / 'orbc', 'compile', path('sharp.yaml'), '-o', path('room.glb'), '-q')
