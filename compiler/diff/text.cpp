@@ -49,7 +49,8 @@ class TextComparison {
         return x.text == y.text || comments(x, y);
       case TokenKind::text:
         if (!same_name(x.text, a_, y.text, b_)) return false;
-        if (names_picture(x.text)) errors = pictures_beside(x.text, y.text);
+        // A picture that the file carries along is compared where it stands.
+        if (names_picture(x.text) && !(carries(a_, x.text) && carries(b_, y.text))) errors = pictures_beside(x.text, y.text);
         return true;
       case TokenKind::file:
         return same_name(x.text, a_, y.text, b_) && inlined(x, y, errors);
@@ -89,6 +90,10 @@ class TextComparison {
     if (!left) return left.error();
     if (!right) return right.error();
     return compare_pictures({std::string(x), *left}, {std::string(y), *right}, limits_, finding_);
+  }
+
+  static bool carries(const Source& source, std::string_view name) {
+    return source.bytes.find(fmt::format("/* orbc-file {} base64\n", name)) != std::string::npos;
   }
 
   bool inlined(const Token& x, const Token& y, Diagnostics& errors) {

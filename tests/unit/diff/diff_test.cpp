@@ -175,6 +175,11 @@ TEST_CASE("pictures that a scene names are looked into, beside it and inlined", 
         "diff.cannot-read");
   const std::string inlined = "/* orbc-file scene-atlas.png base64\nAAAA\n*/";
   CHECK(error_of(Form::pov, inlined).find("cannot be read") != std::string::npos);
+  // The picture of one white pixel, named before it is carried along: there is no such file.
+  const std::string white =
+      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4//8/AAX+Av4N70a4AAAAAElFTkSuQmCC";
+  const std::string piped = "image_map { png \"scene-atlas.png\" }\n/* orbc-file scene-atlas.png base64\n" + white + "\n*/";
+  CHECK(compare(Form::pov, source("x.pov", piped), source("y.pov", piped), {}).value().pixels == 1);
   CHECK(decode_base64("b3J\niYw==").value() == "orbc");
   CHECK_FALSE(decode_base64("b3J!").has_value());
 }
