@@ -258,7 +258,13 @@ std::string Fields::only_one_of(const std::vector<std::string>& keys) const {
 }
 
 void Fields::no_effect(std::string_view key, std::string_view why) const {
-  if (has(key)) reader_.warning("scene.no-effect", key_span(key), fmt::format("`{}` changes nothing here: {}", key, why), "remove it");
+  if (!has(key)) return;
+  const SourceSpan span = key_span(key);
+  const auto is_same = [&](const Diagnostic& d) {
+    return d.code == "scene.no-effect" && d.span.line == span.line && d.span.column == span.column;
+  };
+  if (std::any_of(reader_.diagnostics.begin(), reader_.diagnostics.end(), is_same)) return;  // one reason is enough
+  reader_.warning("scene.no-effect", span, fmt::format("`{}` changes nothing here: {}", key, why), "remove it");
 }
 
 double Fields::number(std::string_view key, double fallback, const Range& range) const {

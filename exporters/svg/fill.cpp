@@ -18,6 +18,7 @@ using geometry::Line;
 using geometry::Space;
 
 constexpr int kLongestWord = 1024;
+constexpr double kSlack = 1e-6;  // of a length: far more than rounding
 constexpr std::size_t kVisitsPerCopy = 40;  // many copies are visited for each that is seen, where many walls meet
 
 /// Whether nothing behind the line, to its left, can be seen on the page: all of it is too small or outside the window.
@@ -49,12 +50,14 @@ class Behind {
   [[nodiscard]] bool is_unseen_in_half_plane(const Line& line) const {
     const double leading = line.w + line.x;
     const std::array<Complex, 4> corners = window_corners();
-    const double left = corners[0].real(), right = corners[1].real();
+    // Copies that touch the window's border count as seen, whatever rounding says of the line that they share with it.
+    const double slack = kSlack * std::fabs(corners[1].real() - corners[0].real());
+    const double left = corners[0].real() - slack, right = corners[1].real() + slack;
     if (std::fabs(leading) < 1e-9) return is_left_of(line, left, right);
     const double middle = line.y / leading, radius = 1 / std::fabs(leading);
     if (leading < 0)  // inside
-      return 2 * radius * page_.scale < smallest_ || middle + radius < left || middle - radius > right;
-    return std::all_of(corners.begin(), corners.end(), [&](const Complex& z) { return math::abs(z - middle) < radius; });
+      return 2 * radius * page_.scale < (1 - kSlack) * smallest_ || middle + radius < left || middle - radius > right;
+    return std::all_of(corners.begin(), corners.end(), [&](const Complex& z) { return math::abs(z - middle) < (1 - kSlack) * radius; });
   }
 
   // An upright line: −yX + (w − x)/2 = 0.

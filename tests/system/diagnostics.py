@@ -58,8 +58,8 @@ with folder() as name:
         ('cover.stacked-mirrors', 1, 'room: {walls: {1: {mirrors: [{height: [0, 0.4]}, {height: [0.4, 1], reflectance: 0.5}]}}}\ncover: {max_bounces: 2}',
          ['compile', *glb, '--view', 'disk']),
         ('driver.no-lens', 0, LENS, ['compile', *glb]),
-        ('render.few-samples-of-lens', 0, LENS, ['trace', '-o', where / 'out.png', '--size', '8x6', '--samples', '1']),
-        ('render.lens-left-out', None, LENS, ['verify', '--size', '8x6', '--verbose']),
+        ('cli.few-lens-samples', 0, LENS, ['trace', '-o', where / 'out.png', '--size', '8x6', '--samples', '1']),
+        ('cli.lens-left-out', None, LENS, ['verify', '--size', '8x6', '--verbose']),
     ]
     for code, exit_code, text, (command, *words) in cases:
         scene = where / 'scene.yaml'

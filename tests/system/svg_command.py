@@ -15,7 +15,7 @@ SVG = '{http://www.w3.org/2000/svg}'
 def image_of(copy, z):
     a, b, c, d = (complex(*copy['moebius'][k]) for k in 'abcd')
     z = z.conjugate() if copy['reversing'] else z
-    return (a * z + b) / (c * z + d)
+    return (a * z + b) / (c * z + d) if c * z + d else complex(np.inf)   # the antipode of the centre has no place in the chart
 
 
 def on_page(space, model, z, size):
