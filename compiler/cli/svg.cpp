@@ -44,7 +44,7 @@ PrintSize parse_print_size(const std::string& text) {
     break;
   }
   double values[2] = {0, 0};
-  int count = 0;
+  int count = 0, wanted = 1;
   const char *at = numbers.data(), *end = at + numbers.size();
   while (count < 2) {
     const auto [next, error] = std::from_chars(at, end, values[count], std::chars_format::fixed);
@@ -52,13 +52,14 @@ PrintSize parse_print_size(const std::string& text) {
     ++count;
     at = next;
     if (at == end || (*at != 'x' && *at != 'X')) break;
+    wanted = 2;
     ++at;
   }
   for (double& value : values) value *= size.per_unit;
   size.width = values[0];
   size.height = values[1];
   const auto fits = [](double side) { return side >= kSmallest && side <= kLargest; };
-  if (count == 0 || at != end || !fits(size.width) || (count == 2 && !fits(size.height)))
+  if (count != wanted || at != end || !fits(size.width) || (count == 2 && !fits(size.height)))
     throw UsageError(fmt::format(
         "--size wants WIDTH or WIDTHxHEIGHT, in pixels or with mm, cm, in or pt, such as 800, 800x600, 200mm, and {} to {} pixels; got {}",
         kSmallest, kLargest, text));
