@@ -73,8 +73,8 @@ def agrees(where, text, what, *more):
     scene.write_text(text)
     done = run([ORBC, 'verify', '--json', scene, *more], timeout=300)
     try:
-        results = json.loads(done.stdout)
-    except ValueError:
+        results = json.loads(done.stdout)['pictures']
+    except (ValueError, KeyError):
         results = []
         print(done.stdout.decode(), done.stderr.decode())
     shares = ', '.join(f'{100 * result["within_2"]:.2f} %' for result in results if 'within_2' in result)

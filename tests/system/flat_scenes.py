@@ -31,7 +31,7 @@ with folder() as where:
         check(valid.returncode == 0, f'{name}: the Khronos validator finds nothing {valid.stdout.decode()[:300] if valid.returncode else ""}')
         check(orbc('compile', scene, '-o', svg, '--quiet').returncode == 0 and b'<svg' in svg.read_bytes()[:400], f'{name}: svg')
         done = orbc('verify', scene, '--json')
-        verdict = json.loads(done.stdout)[0] if done.stdout else {}
+        verdict = json.loads(done.stdout)['pictures'][0] if done.returncode < 2 and done.stdout else {}
         check(done.returncode == 0 and verdict['within_2'] >= 0.995 and verdict['beyond_2_elsewhere'] == 0,
               f'{name}: POV-Ray\'s picture of the export and the tracer\'s agree: {100 * verdict.get("within_2", 0):.3f} % within 2/255 {done.stderr.decode()[:300]}')
         print(f'        {name}: {time.monotonic() - start:.0f} s')

@@ -53,7 +53,7 @@ constexpr double kNear = 1e-3;
 
 Vector3 vertex(const driver::Product& product, std::uint32_t i) {
   const auto& p = product.positions[i];
-  return Vector3{p[0], p[1], p[2]} - Vector3{0, 0, product.eye.z};
+  return (1 / product.scale) * Vector3{p[0], p[1], p[2]} - Vector3{0, 0, product.eye.z};
 }
 
 /// The corner of a box of pixels that holds the triangle, cut at a plane just before the eye.
