@@ -28,7 +28,7 @@ function(orbc_tests name folder)
     set(which "~[long]~[.]")  # a filter alone would bring the hidden ones along
   endif()
   add_test(NAME ${name} COMMAND ${name} ${which} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 600)
+  set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 1200)
 endfunction()
 
 foreach(room base geometry notation scene room mesh place cover bend trace light render driver diff)
@@ -42,7 +42,7 @@ foreach(exporter ${ORBC_EXPORTERS})
 endforeach()
 # The same over thousands of rooms.
 add_test(NAME beams_of_thousands COMMAND property_cover [slow] WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-set_tests_properties(beams_of_thousands PROPERTIES LABELS slow TIMEOUT 600)
+set_tests_properties(beams_of_thousands PROPERTIES LABELS slow TIMEOUT 1200)
 orbc_tests(test_watertight tests/watertight USES driver)
 # The same from a thousand eyes.
 add_test(NAME watertight_thousand COMMAND test_watertight [slow] WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
