@@ -51,7 +51,8 @@ int enumerate(const EnumerateArguments& a, const Common& common) {
   bool first = true;
   const auto done = notation::enumerate(a.corners, a.max_order, [&](const notation::Orbifold& orbifold, geometry::Space space) {
     const std::string name = geometry::name(space);
-    if (!a.space.empty() && a.space != name) return true;
+    // Spaces come one after the other, the hyperbolic one last: of it there may be more than anybody waits for.
+    if (!a.space.empty() && a.space != name) return space != geometry::Space::hyperbolic;
     text += line_of(orbifold, name, common.json, first);
     first = false;
     if (text.size() > kBlock) {

@@ -34,7 +34,7 @@ for notation, scale in (("*2222", 0.6), ("*333", 0.6), ("*244", 0.55), ("*236", 
         (where / "room.yaml").write_text(SCENE.format(notation=notation, scale=scale))
         done(BIN / "mirror_room", where / "room.yaml", where / "mirrors.pov")
         done(SCRIPTS / "povray-pipe", where / "mirrors.pov", "-o", where / "mirrors.png")
-        done(BIN / "orbc", "render", "--quiet", where / "room.yaml", "-o", where / "copies.png", "--engine", "povray")
+        done(BIN / "orbc", "render", "--quiet", where / "room.yaml", "-o", where / "copies.png", "--engine", "povray", "--samples", "1")
         done(BIN / "orbc", "trace", "--quiet", "--samples", "1", where / "room.yaml", "-o", where / "traced.png")
         mirrors = picture(where / "mirrors.png")
         for name, wanted in (("copies", 0.998), ("traced", 0.999)):
