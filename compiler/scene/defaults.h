@@ -11,6 +11,8 @@ namespace orbc::scene {
 // What a scene gets that says nothing: every wall one full mirror, a floor checker, a light ceiling (no lamp: plain colours).
 [[nodiscard]] Surface default_floor();
 [[nodiscard]] Surface default_ceiling();
+/// Whether wall `number` (from 1) is a plain end of a strip.
+[[nodiscard]] bool is_end_wall(const notation::Orbifold& orbifold, int number);
 /// A full mirror of reflectance 0.9; the ends of a strip are plain.
 [[nodiscard]] Wall default_wall(bool is_end);
 /// A frame's looks: gilt wood.
