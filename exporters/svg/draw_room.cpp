@@ -11,6 +11,8 @@ RoomDrawing draw_room(const room::Room& room, const RoomPicture& picture) {
   look.smallest = picture.fill.smallest;
   const double caption = look.labels ? caption_height(picture.width) : 0;
   const Page page = make_room_page(room, picture.chart, {picture.width, picture.height, caption, !look.labels});
+  for (Polyline& line : look.motif)
+    for (std::complex<double>& z : line) z *= std::conj(page.turn);  // so that it stands upright on the page
   if (!look.motif.empty()) look.motif = placed_motif(look.motif, room);
   if (look.cuts && room::cut_segments(room).empty())
     drawing.notes.push_back(

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <numbers>
 
 #include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
@@ -19,6 +21,7 @@ using geometry::Space;
 constexpr double kSpace = 0.12;      // of the room's smallest distance from its centre to a wall, kept free beside the motif
 constexpr int kSplits = 24;          // segments of an edge as long as the motif
 constexpr double kTolerance = 0.12;  // page units that a left-out point may lie off
+constexpr double kFront = 0.3;       // w of what a gnomonic page shows at most: its frame lies at 0.45
 
 double distance_to_walls(const room::Room& room, Complex z) {
   if (room.space == Space::hyperbolic && std::norm(z) >= 1) return -1;
@@ -48,6 +51,64 @@ void mark(const Polyline& line, std::size_t first, std::size_t last, std::vector
   kept[farthest] = true;
   mark(line, first, farthest, kept);
   mark(line, farthest, last, kept);
+}
+
+/// The part of a closed line on the sphere that lies before the plane w = kFront (Sutherland and Hodgman, 1974). Where it leaves and comes
+/// back it is closed along the plane, which lies outside the frame of a gnomonic page.
+std::vector<geometry::Point> in_front(const std::vector<geometry::Point>& line) {
+  std::vector<geometry::Point> kept;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const geometry::Point &p = line[i], &q = line[(i + 1) % line.size()];
+    if (p.w >= kFront) kept.push_back(p);
+    if ((p.w >= kFront) == (q.w >= kFront)) continue;
+    const double t = (kFront - p.w) / (q.w - p.w);
+    kept.push_back({kFront, p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
+  }
+  return kept;
+}
+
+/// Adds a closed line as an outline of a path, without points that nobody could tell.
+void append_outline(std::string& d, const Page& page, const std::vector<geometry::Point>& line) {
+  if (line.size() < 3) return;
+  Polyline mapped;
+  for (const geometry::Point& p : line) mapped.push_back(on_page(page, p));
+  mapped.push_back(mapped.front());
+  std::vector<bool> kept(mapped.size(), false);
+  const std::size_t half = mapped.size() / 2;  // a closed line has no chord from its end to its beginning
+  kept.front() = kept[half] = true;
+  mark(mapped, 0, half, kept);
+  mark(mapped, half, mapped.size() - 1, kept);
+  std::size_t count = 0;
+  std::string outline;
+  for (std::size_t i = 0; i + 1 < mapped.size(); ++i) {
+    if (!kept[i]) continue;
+    outline += (count++ == 0 ? 'M' : 'L') + coordinate(mapped[i].real()) + ' ' + coordinate(mapped[i].imag());
+  }
+  if (count > 2) d += outline + 'Z';
+}
+
+/// How often a motif in the room runs around the point whose image in the copy is the antipode of the page's middle, counter-clockwise.
+int turns_around_antipode(const Motif& motif, const geometry::Isometry& cover_from_room) {
+  const geometry::Point p = geometry::inverse(cover_from_room) * geometry::Point{-1, 0, 0};
+  if (p.w < -1 + 1e-9) return 0;  // it is the antipode of the room's own middle, where no motif is
+  const Complex at = geometry::disk_from_point(Space::spherical, p);
+  double angle = 0;
+  for (const Polyline& line : motif)
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const Complex step = (line[(i + 1) % line.size()] - at) * std::conj(line[i] - at);
+      angle += math::atan2(step.imag(), step.real());
+    }
+  return static_cast<int>(std::lround(angle / (2 * std::numbers::pi)));
+}
+
+/// Squares around all of the page, run around `turns` times: where they are positive from the x axis to the y axis of the page.
+std::string rings(const Page& page, int turns) {
+  const std::string low = coordinate(-page.width), right = coordinate(2 * page.width), bottom = coordinate(page.width + page.height);
+  const std::string ring = turns > 0 ? 'M' + low + ' ' + low + 'H' + right + 'V' + bottom + 'H' + low + 'Z'
+                                     : 'M' + low + ' ' + low + 'V' + bottom + 'H' + right + 'V' + low + 'Z';
+  std::string all;
+  for (int i = 0; i < std::abs(turns); ++i) all += ring;
+  return all;
 }
 
 /// The values of the attribute d of all path elements.
@@ -112,26 +173,20 @@ Motif placed_motif(const Motif& motif, const room::Room& room) {
   return placed;
 }
 
-std::string motif_path(const Page& page, const Motif& motif, const geometry::Isometry& cover_from_room) {
-  std::string d;
+MotifPath motif_path(const Page& page, const Motif& motif, const geometry::Isometry& cover_from_room) {
+  MotifPath path;
   for (const Polyline& line : motif) {
-    Polyline mapped;
-    for (const Complex& z : line) mapped.push_back(on_page(page, cover_from_room * geometry::point_from_disk(page.space, z)));
-    mapped.push_back(mapped.front());
-    std::vector<bool> kept(mapped.size(), false);
-    const std::size_t half = mapped.size() / 2;  // a closed line has no chord from its end to its beginning
-    kept.front() = kept[half] = true;
-    mark(mapped, 0, half, kept);
-    mark(mapped, half, mapped.size() - 1, kept);
-    std::size_t count = 0;
-    std::string outline;
-    for (std::size_t i = 0; i + 1 < mapped.size(); ++i) {
-      if (!kept[i]) continue;
-      outline += (count++ == 0 ? 'M' : 'L') + coordinate(mapped[i].real()) + ' ' + coordinate(mapped[i].imag());
-    }
-    if (count > 2) d += outline + 'Z';
+    std::vector<geometry::Point> image;
+    for (const Complex& z : line) image.push_back(cover_from_room * geometry::point_from_disk(page.space, z));
+    if (page.space == Space::spherical && page.straight) image = in_front(image);
+    append_outline(path.d, page, image);
   }
-  return d;
+  if (page.space == Space::spherical && !page.straight) {
+    const int turns = turns_around_antipode(motif, cover_from_room);
+    path.d += rings(page, cover_from_room.reversing ? turns : -turns);  // y points down on the page, which reverses all turns once more
+    path.is_alone = turns != 0;
+  }
+  return path;
 }
 
 }  // namespace orbc::svg

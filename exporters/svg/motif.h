@@ -21,7 +21,15 @@ using Motif = std::vector<Polyline>;
 /// Edges are split finely enough for their images under isometries.
 [[nodiscard]] Motif placed_motif(const Motif& motif, const room::Room& room);
 
-/// The image of a placed motif in a copy, as an SVG path without points that nobody could tell.
-[[nodiscard]] std::string motif_path(const Page& page, const Motif& motif, const geometry::Isometry& cover_from_room);
+/// The image of a motif in a copy, as the data of an SVG path to be filled by the rule nonzero.
+struct MotifPath {
+  std::string d;
+  /// The image holds the antipode of the page's middle, which lies infinitely far away in the stereographic chart: rings around the page
+  /// are part of the path, so that no other may stand in one element with it.
+  bool is_alone = false;
+};
+
+/// Maps a placed motif into a copy, without points that nobody could tell. What a gnomonic page does not show is cut off.
+[[nodiscard]] MotifPath motif_path(const Page& page, const Motif& motif, const geometry::Isometry& cover_from_room);
 
 }  // namespace orbc::svg

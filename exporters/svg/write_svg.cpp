@@ -115,13 +115,18 @@ void write_groups(std::string& out, const Groups& groups, const Page& page, doub
 void write_motifs(std::string& out, const std::vector<Tile>& tiles, const Tiling& tiling, const Page& page, const SvgOptions& options) {
   if (options.motif.empty()) return;
   const int longest = longest_told(tiles);
+  const auto element = [](const std::string& color, const std::string& d) {
+    return "<path fill=\"" + color + "\" fill-rule=\"nonzero\" stroke=\"none\" d=\"" + d + "\"/>\n";
+  };
   std::map<std::string, std::string> by_color;
   for (const Tile& tile : tiles) {
     if (tile.path.diameter < kMotifFrom * page.unit) continue;
-    std::string& d = by_color[ink_on(fill_of(*tile.copy, longest, tiling.colouring, options.colors))];
-    d += motif_path(page, options.motif, tile.copy->cover_from_room) + '\n';
+    const std::string color = ink_on(fill_of(*tile.copy, longest, tiling.colouring, options.colors));
+    const MotifPath path = motif_path(page, options.motif, tile.copy->cover_from_room);
+    if (path.is_alone) out += element(color, path.d);
+    else if (!path.d.empty()) by_color[color] += path.d + '\n';
   }
-  for (const auto& [color, d] : by_color) out += "<path fill=\"" + color + "\" fill-rule=\"nonzero\" stroke=\"none\" d=\"" + d + "\"/>\n";
+  for (const auto& [color, d] : by_color) out += element(color, d);
 }
 
 /// Plain walls that close a strip, in all its copies.

@@ -112,6 +112,56 @@ TEST_CASE("a motif stands in the room, close to a wall, and turns over in a mirr
   }
 }
 
+/// How often closed lines run around a point, counter-clockwise.
+static int winding(const std::vector<svg::Polyline>& lines, Point2 at) {
+  double angle = 0;
+  for (const svg::Polyline& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) angle += std::arg((line[(i + 1) % line.size()] - at) / (line[i] - at));
+  return static_cast<int>(std::lround(angle / (2 * 3.14159265358979323846)));
+}
+
+/// The distance from a point to the nearest edge of closed lines.
+static double distance_to(const std::vector<svg::Polyline>& lines, Point2 at) {
+  double least = 1e9;
+  for (const svg::Polyline& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const Point2 a = line[i], b = line[(i + 1) % line.size()] - a;
+      const double t = std::norm(b) > 0 ? std::clamp((std::conj(b) * (at - a)).real() / std::norm(b), 0.0, 1.0) : 0;
+      least = std::min(least, std::abs(at - a - t * b));
+    }
+  return least;
+}
+
+TEST_CASE("a motif fills on the page what it fills in the room, around the antipode and behind the horizon as well", "[svg]") {
+  const char* notation = GENERATE("*", "*33", "*222", "*235", "*333", "*22222");
+  const svg::Chart chart = GENERATE(svg::Chart::disk, svg::Chart::klein);
+  CAPTURE(notation, static_cast<int>(chart));
+  const room::Room room = realised(notation);
+  const svg::Page page = svg::make_room_page(room, chart, {600, 0, 0, false});
+  const svg::Motif motif = svg::placed_motif(svg::read_motif("F").value(), room);
+  const double inside = std::tanh(room.inradius / 2);   // about as wide in the disk chart as the circle that touches the walls
+  int shown = 0, filled = 0, alone = 0;
+  for (const cover::Copy& copy : svg::fill(room, page, {4, 100000}).copies) {
+    const svg::MotifPath path = svg::motif_path(page, motif, copy.cover_from_room);
+    alone += path.is_alone ? 1 : 0;
+    const std::vector<svg::Polyline> outlines = path.d.empty() ? std::vector<svg::Polyline>{} : svg::read_path_data(path.d).value();
+    for (int i = 0; i < 60; ++i) {   // a spiral of points
+      const Point2 z = std::polar(inside * std::sqrt(i / 60.0), 2.399963 * i);
+      const geometry::Point p = copy.cover_from_room * geometry::point_from_disk(room.space, z);
+      if (room.space == geometry::Space::spherical && p.w < (page.straight ? 0.46 : -0.5)) continue;   // beyond the frame
+      const Point2 at = std::conj(svg::on_page(page, p));   // path data is read with y up
+      if (distance_to(outlines, at) < 0.3) continue;
+      ++shown;
+      filled += winding(motif, z) != 0 ? 1 : 0;
+      CHECK((winding(outlines, at) != 0) == (winding(motif, z) != 0));
+    }
+  }
+  CHECK(shown > 40);
+  CHECK(filled > 5);
+  CHECK(alone <= 1);   // one copy at most holds the antipode
+  if (notation == std::string("*") && chart == svg::Chart::disk) CHECK(alone == 1);
+}
+
 /// Whether the middle of a copy or a point of its outline lies on the page. The box of a large copy may overlap a page that the copy
 /// misses.
 static bool shows_a_point(const svg::Page& page, const std::vector<svg::Piece>& pieces, const geometry::Isometry& cover_from_room) {
