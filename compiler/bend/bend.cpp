@@ -260,7 +260,7 @@ Totals count_all(const Work& work, const Executor& executor, const Progress& pro
 /// The diagnostic of a scene that is too dense, with a tolerance that was tried and fits.
 Diagnostic too_dense(Work& work, const Executor& executor) {
   const bool disk = work.options.view == View::disk;
-  const double told = disk ? 1 : work.options.told;
+  const double named = disk ? 1 : work.options.message_factor;
   const double asked = work.sight.tolerance;
   std::uint64_t least = 0;
   for (std::size_t i = 0; i < work.copies.size(); ++i) {
@@ -272,8 +272,8 @@ Diagnostic too_dense(Work& work, const Executor& executor) {
     for (double factor = 4; factor < 2e6; factor *= 4) {
       work.sight.tolerance = asked * factor;
       if (!count_all(work, executor, {}).fits) continue;
-      return make_error("bend.too-dense", message + fmt::format(" at a tolerance of {:g}{}", told * asked, disk ? "" : " px"),
-                        fmt::format("a tolerance of {:g}{} fits", told * asked * factor, disk ? "" : " px"));
+      return make_error("bend.too-dense", message + fmt::format(" at a tolerance of {:g}{}", named * asked, disk ? "" : " px"),
+                        fmt::format("a tolerance of {:g}{} fits", named * asked * factor, disk ? "" : " px"));
     }
   }
   return make_error("bend.too-dense", message + fmt::format(" (without any split {})", least),

@@ -42,7 +42,7 @@ struct BendOptions {
   double colour_tolerance = 4;      ///< how far such colours may shift within their surface, in units of the tolerance; > 0
   std::uint64_t max_triangles = 200'000'000;
   bool advise = true;               ///< when that is exceeded, look for a tolerance that fits
-  double told = 1;                  ///< messages name tolerances times this: who asks may share out a larger one
+  double message_factor = 1;        ///< messages name tolerances times this: the caller's own tolerance, of which this is a share
 };
 
 /// Where one copy's vertices and triangles lie in the arrays of `BentCover`.

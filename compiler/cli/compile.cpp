@@ -97,8 +97,8 @@ Diagnostics notes_of(const driver::Compiled& compiled, const std::string& format
 driver::CompileOptions compile_options(const CompileArguments& a) {
   driver::CompileOptions options;
   options.bend.view = a.view == "disk" ? bend::View::disk : bend::View::eye;
-  options.bend.tolerance_px = a.tolerance / driver::kSharers;
-  options.bend.told = driver::kSharers;
+  options.bend.tolerance_px = a.tolerance / driver::kToleranceShares;
+  options.bend.message_factor = driver::kToleranceShares;
   if (a.max_triangles && options.bend.view == bend::View::eye) options.budget = *a.max_triangles;
   else if (a.max_triangles) options.bend.max_triangles = *a.max_triangles;
   options.levels = !a.no_lod;
@@ -114,7 +114,7 @@ driver::Amount amount_of(const cover::Plan& plan, bool native) {
 }
 
 /// Says that an export will be large, and what would make it smaller; before light is baked, so that there is time to stop.
-void tell_of_size(const cover::Plan& plan, const std::string& format, bool native, const Common& common, Diagnostics& told) {
+void warn_of_size(const cover::Plan& plan, const std::string& format, bool native, const Common& common, Diagnostics& warnings) {
   constexpr std::uint64_t kLarge = 500'000'000;
   const auto bytes_of = [&](const driver::Amount& amount) { return format == "pov" ? pov::bytes_of(amount) : gltf::bytes_of(amount); };
   const std::uint64_t bytes = bytes_of(amount_of(plan, native));
@@ -136,7 +136,7 @@ void tell_of_size(const cover::Plan& plan, const std::string& format, bool nativ
       fmt::format("the export will have about {:.2g} GB: {} copies, {:.3g} million triangles", static_cast<double>(bytes) / 1e9,
                   to_string(plan.copies), static_cast<double>(plan.triangles) / 1e6), hint)};
   print(warning, common);
-  append(told, warning);
+  append(warnings, warning);
 }
 
 int write_plan(const driver::Opened& opened, const CompileArguments& a, const Common& common) {
@@ -169,7 +169,7 @@ Result<Exported> export_scene(const driver::Opened& opened, const CompileArgumen
   if (!a.max_triangles || *a.max_triangles > 4'000'000)   // fewer are small
     options.foresee = [&](const cover::Plan& plan) {
       bar.clear();
-      if (large.empty()) tell_of_size(plan, format, driver::lit_natively(opened.scene), common, large);
+      if (large.empty()) warn_of_size(plan, format, driver::lit_natively(opened.scene), common, large);
     };
   const auto compiled = driver::compile(opened, options, executor, bar.progress());
   if (!compiled) return compiled.error();
@@ -193,12 +193,13 @@ int compile(const CompileArguments& a, const Common& common) {
   print(opened->notes, common);
   if (a.plan) return write_plan(*opened, a, common);
   if (format == "svg") return write_tiling(*opened, a, common);
-  print(driver::unlit_note(*opened), common);
-  append(opened->notes, driver::unlit_note(*opened));
+  const Diagnostics unlit = driver::unlit_note(*opened);
+  print(unlit, common);
+  append(opened->notes, unlit);
   const auto made = export_scene(*opened, a, format, common);
   if (!made) return print(made.error(), common), kSceneWrong;
   print(made->notes, common);
-  append(opened->notes, made->told);
+  append(opened->notes, made->size_warning);
   append(opened->notes, made->notes);
   if (common.json) {
     nlohmann::ordered_json result{{"output", a.output}, {"format", format}, {"bytes", made->bytes}};

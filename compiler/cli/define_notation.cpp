@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "compiler/cli/define.h"
+#include "compiler/cli/expanded_star.h"
 
 namespace orbc::cli {
 
@@ -29,7 +30,8 @@ void define_info(Program& program) {
   c->add_flag("--allow-non-orbifold", a.allow_non_orbifold, "Accept real-valued corners such as *(3/2)(12)(12)");
   c->footer("Examples:\n  orbc info '*237'\n  orbc info '*23456789(10)(11)' --json\n  orbc info '*22222' --shape paper --cut 1.4");
   add_common(*c, program.common);
-  program.commands.push_back({c, [arguments](const Common& common) { return info(*arguments, common); }});
+  program.commands.push_back({c, [arguments](const Common& common) { return info(*arguments, common); },
+                              [](const std::vector<std::string>& words) { return expanded_star_message("info", words); }});
 }
 
 void define_enumerate(Program& program) {

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "compiler/cli/define.h"
+#include "compiler/cli/expanded_star.h"
 
 namespace orbc::cli {
 
@@ -11,7 +12,8 @@ void define_new(Program& program) {
   c->add_option("notation", arguments->notation, "Orbifold notation")->capture_default_str()->type_name("NOTATION");
   c->footer("Examples:\n  orbc new '*2323' > s.yaml\n  orbc new '*235' > dodecahedral.yaml");
   add_common(*c, program.common);
-  program.commands.push_back({c, [arguments](const Common& common) { return new_scene(*arguments, common); }});
+  program.commands.push_back({c, [arguments](const Common& common) { return new_scene(*arguments, common); },
+                              [](const std::vector<std::string>& words) { return expanded_star_message("new", words); }});
 }
 
 void define_check(Program& program) {

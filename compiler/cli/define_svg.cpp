@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "compiler/cli/define.h"
+#include "compiler/cli/expanded_star.h"
 
 namespace orbc::cli {
 namespace {
@@ -68,7 +69,8 @@ void define_svg(Program& program) {
       "Examples:\n  orbc svg '*237' -o t.svg\n  orbc svg '*22222' --motif F --colors white,black --lines 0 -o f.svg\n"
       "  orbc svg '*22222' --shape paper --cuts --size 200mm -o cuts.svg\n  orbc svg '*237' --model half-plane > h.svg");
   add_common(*c, program.common);
-  program.commands.push_back({c, [arguments](const Common& common) { return draw_svg(*arguments, common); }});
+  program.commands.push_back({c, [arguments](const Common& common) { return draw_svg(*arguments, common); },
+                              [](const std::vector<std::string>& words) { return expanded_star_message("svg", words); }});
 }
 
 }  // namespace orbc::cli

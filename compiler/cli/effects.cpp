@@ -55,11 +55,6 @@ const char* of_highlights(const Situation& now, unsigned target) {
   if (std::none_of(looks.begin(), looks.end(), shiny)) return "nothing in the scene is glossy, or of metal, mirror or glass";
   return of_quality(now, target);
 }
-const char* instead_of_expected(const Situation& now, unsigned) {
-  const bool replaced = now.opened.expected_background && !now.opened.scene.cover.background_expected;
-  return replaced ? "--expected-background shows what is expected beyond instead" : nullptr;
-}
-
 struct Row {
   const char* name;
   unsigned belongs_to;
@@ -100,7 +95,6 @@ constexpr Row kKeys[] = {
     {"bake.lights", kExports, without_lamps},
     {"bake.mirrors", kPictures, without_lamps},
     {"bake.quality", kPictures, of_quality},
-    {"cover.background", kPictures, instead_of_expected},
     {"cover.min_pixels", kExports, of_the_disk},
 };
 

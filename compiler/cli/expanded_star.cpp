@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
-#include <string_view>
-#include <vector>
+#include <iterator>
 
 namespace orbc::cli {
 namespace {
 
-constexpr std::size_t kNamed = 3;  // file names that are told
+constexpr std::size_t kNamed = 3;  // of the file names, in the message
 
 bool is_file(const std::string& word) {
   std::error_code error;
@@ -21,18 +18,14 @@ bool is_file(const std::string& word) {
 
 }  // namespace
 
-bool told_expanded_star(int argc, char** argv) {
-  constexpr std::array<std::string_view, 3> kTakeNotation = {"info", "new", "svg"};
-  if (argc < 4 || std::find(kTakeNotation.begin(), kTakeNotation.end(), argv[1]) == kTakeNotation.end()) return false;
+std::string expanded_star_message(const std::string& command, const std::vector<std::string>& words) {
   std::vector<std::string> files;
-  for (int i = 2; i < argc; ++i)
-    if (argv[i][0] != '-' && is_file(argv[i])) files.emplace_back(argv[i]);
-  if (files.size() < 2) return false;
+  std::copy_if(words.begin(), words.end(), std::back_inserter(files), is_file);
   const std::size_t count = files.size();
+  if (count < 2) return "";
   files.resize(std::min(count, kNamed));
-  fmt::print(stderr, "orbc: the shell has put {} file names in place of the star: {}{}\n  hint: quote the notation: orbc {} '*237'\n",
-             count, fmt::join(files, ", "), count > kNamed ? ", ..." : "", argv[1]);
-  return true;
+  return fmt::format("the shell has put {} file names in place of the star: {}{}\n  hint: quote the notation: orbc {} '*237'", count,
+                     fmt::join(files, ", "), count > kNamed ? ", ..." : "", command);
 }
 
 Diagnostics with_star_hint(Diagnostics errors, const std::string& notation) {

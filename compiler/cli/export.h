@@ -13,7 +13,7 @@ struct Exported {
   driver::Report report;
   std::string report_json;
   Diagnostics notes;                ///< what its author should know
-  Diagnostics told;                 ///< what has been printed already, since it could not wait
+  Diagnostics size_warning;         ///< cli.large-export, which was printed before the work
   std::uint64_t bytes = 0;          ///< of the main output alone
 };
 

@@ -1,13 +1,14 @@
 #pragma once
-#include "compiler/cli/commands.h"
+#include "compiler/base/diagnostic.h"
 #include "compiler/driver/open.h"
 
 namespace orbc::cli {
 
-/// Says that so few samples of a pixel look through a lens in too few places to show a blur.
-void tell_of_lens(const driver::Opened& opened, int samples, const Common& common);
+/// A warning that so few samples of a pixel look through a lens in too few places to show a blur; nothing without a lens.
+[[nodiscard]] Diagnostics few_lens_samples(const driver::Opened& opened, int samples);
 
-/// Takes the lens out of the camera, and says so: exports, which the tracer's picture is compared with, have none.
-void leave_out_lens(driver::Opened& opened, const Common& common);
+/// Takes the lens out of the camera: exports, which the tracer's picture is compared with, have none.
+/// Makes: a note that says so; nothing without a lens.
+[[nodiscard]] Diagnostics leave_out_lens(driver::Opened& opened);
 
 }  // namespace orbc::cli

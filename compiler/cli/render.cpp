@@ -79,10 +79,10 @@ int render_elsewhere(const driver::Opened& opened, const RenderArguments& a, Pic
   const driver::Report& r = drawn.exported.report;
   nlohmann::ordered_json result = result_of(a, format, opened.eye);
   result.update({{"copies", r.copies}, {"triangles", r.triangles}, {"error_bound_px", r.error_bound_px}});
-  Diagnostics told = opened.notes;
-  append(told, drawn.exported.told);
-  append(told, drawn.exported.notes);
-  print_result(std::move(result), told, common);
+  Diagnostics diagnostics = opened.notes;
+  append(diagnostics, drawn.exported.size_warning);
+  append(diagnostics, drawn.exported.notes);
+  print_result(std::move(result), diagnostics, common);
   if (!common.quiet)
     fmt::print(stderr, "{}: {}x{}, {} samples a pixel, drawn by {} from {} copies, {} triangles, true within {:.3g} px\n",
                shown(a.compile.output), opened.eye.width, opened.eye.height, a.samples, a.engine, r.copies, r.triangles, r.error_bound_px);
@@ -90,7 +90,6 @@ int render_elsewhere(const driver::Opened& opened, const RenderArguments& a, Pic
 }
 
 int render_here(const driver::Opened& opened, const RenderArguments& a, PictureFormat format, const Common& common) {
-  tell_of_lens(opened, a.samples, common);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   write_output(a.compile.output, format == PictureFormat::exr
@@ -151,6 +150,7 @@ int render(const RenderArguments& arguments, const Common& common) {
   const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;
   append(opened->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *opened));
   if (a.pass == "color") append(opened->notes, driver::unlit_note(*opened));
+  if (here) append(opened->notes, few_lens_samples(*opened, a.samples));
   print(opened->notes, common);
   return here ? render_here(*opened, a, format, common) : render_elsewhere(*opened, a, format, common);
 }

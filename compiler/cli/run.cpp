@@ -13,7 +13,6 @@
 #include "compiler/cli/accepts.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/define.h"
-#include "compiler/cli/expanded_star.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
@@ -75,7 +74,6 @@ int dispatch(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    if (told_expanded_star(argc, argv)) return kUsage;
     const std::string message = usage_message(program, error, {argv + 1, argv + argc});
     fmt::print(stderr, "{}\n", message);
     if (asks_for_json(argc, argv)) print_failure("cli.usage", message);

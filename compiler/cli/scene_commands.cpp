@@ -23,13 +23,13 @@ int new_scene(const NewArguments& a, const Common& common) {
   options.allow_non_orbifold = true;
   const auto parsed = notation::parse_with_notes(a.notation, options);
   if (!parsed) return print(with_star_hint(parsed.error(), a.notation), common), kSceneWrong;
-  if (!common.quiet) std::fputs(to_text(parsed->notes).c_str(), stderr);
+  Diagnostics notes = parsed->notes;
   if (!notation::is_orbifold(parsed->orbifold))
-    print({make_warning(
-              "notation.non-orbifold-room",
-              "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",
-              "the scene says `allow_non_orbifold: true`; corners with integers make an orbifold", options.span)},
-          common);
+    notes.push_back(make_warning(
+        "notation.non-orbifold-room",
+        "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",
+        "the scene says `allow_non_orbifold: true`; corners with integers make an orbifold", options.span));
+  if (!common.quiet) std::fputs(to_text(notes).c_str(), stderr);
   const auto room = room::realise(parsed->orbifold, {}, true);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
   const std::string notation = notation::to_text(parsed->orbifold);
@@ -37,7 +37,7 @@ int new_scene(const NewArguments& a, const Common& common) {
       schema_line() +
       scene::starter_scene({notation, static_cast<int>(room->walls.size()), room->inradius, room::view_direction(*room)});
   if (!common.json) write_output("-", scene);
-  print_result({{"orbifold", notation}, {"scene", scene}}, parsed->notes, common);
+  print_result({{"orbifold", notation}, {"scene", scene}}, notes, common);
   return kDone;
 }
 

@@ -103,8 +103,8 @@ int verify(const VerifyArguments& a, const Common& common) {
   if (!opened) return print(opened.error(), common), kSceneWrong;
   const unsigned targets = kTraced | kPov | (a.blender ? unsigned{kGltf} : 0);
   append(opened->notes, without_effect(common.given, {targets, false, false, false, a.samples}, *opened));
+  append(opened->notes, leave_out_lens(*opened));
   print(opened->notes, common);
-  leave_out_lens(*opened, common);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   bar.clear();

@@ -364,7 +364,7 @@ Result<cover::Plan> plan_once(const Opened& opened, const CompileOptions& option
 }
 
 /// Why the scene cannot be made, with a hint that was tried.
-Diagnostics told(Diagnostics errors, const Opened& opened, const CompileOptions& options, const Executor& executor,
+Diagnostics with_hint_for(Diagnostics errors, const Opened& opened, const CompileOptions& options, const Executor& executor,
                  const Progress& progress) {
   const auto fits = [&](int bounces) {
     constexpr double kSure = 1.2;   // an estimate's error
@@ -407,7 +407,7 @@ Report report_of(const Opened& opened, const Ready& ready, const Product& produc
   r.highlights = ready.painted.highlights.counts;
   r.weight_lost = ready.beyond.weight_lost, r.weight_merged = ready.beyond.weight_merged;
   r.triangles_whole = r.triangles + ready.tally.saved;
-  r.tolerance_px = kSharers * ready.bending.tolerance_px;
+  r.tolerance_px = kToleranceShares * ready.bending.tolerance_px;
   r.left_out = ready.left_out, r.left_out_px = ready.left_out_px;
   r.curtains = ready.curtains, r.curtains_dropped = ready.curtains_dropped;
   std::set<std::string> words;
@@ -435,7 +435,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
   if (native) twin.emplace(unlit_twin(opened));
   const Opened& from = twin ? *twin : opened;
   auto made = make_within(from, native ? &opened : nullptr, options, executor, progress);
-  if (!made) return told(made.error(), from, options, executor, progress);
+  if (!made) return with_hint_for(made.error(), from, options, executor, progress);
   Compiled compiled;
   const double bend_error_px = made->bent.error_bound_px;
   compiled.product = product_of(opened, options, *made->ready, std::move(made->bent));
@@ -451,7 +451,7 @@ Result<Compiled> compile(const Opened& opened, const CompileOptions& options, co
 
 Result<cover::Plan> plan(const Opened& opened, const CompileOptions& options, const Executor& executor) {
   auto planned = plan_once(opened, options, executor, {});
-  if (!planned) return told(planned.error(), opened, options, executor, {});
+  if (!planned) return with_hint_for(planned.error(), opened, options, executor, {});
   return planned;
 }
 

@@ -16,7 +16,7 @@
 namespace orbc::driver {
 
 /// Bent edges and coarser levels of detail displace things by up to `bend.tolerance_px` each: together by so many times that.
-inline constexpr double kSharers = 2;
+inline constexpr double kToleranceShares = 2;
 
 struct CompileOptions {
   bend::BendOptions bend;

@@ -3,17 +3,17 @@
 
 namespace orbc::scene {
 
-/// How many walls the room of a notation has: `*` 1, `*kk` 2, `*k1…kN` N; `**` 4 (1 and 3 mirrors, 2 and 4 plain ends).
+/// How many walls the room of a notation has: `*` 1, `*kk` 2, `*k1…kN` N; strips 4.
 [[nodiscard]] int wall_count(const notation::Orbifold& orbifold);
-/// How many corners: as many as the notation has; `**` 4, where mirrors meet the end walls.
+/// How many corners: as many as the notation has; strips 4, with those where mirrors meet the end walls.
 [[nodiscard]] int corner_count(const notation::Orbifold& orbifold);
 
 // What a scene gets that says nothing: every wall one full mirror, a floor checker, a light ceiling (no lamp: plain colours).
 [[nodiscard]] Surface default_floor();
 [[nodiscard]] Surface default_ceiling();
-/// Whether wall `number` (from 1) is a plain end of a strip.
+/// Whether wall `number` (from 1) is a plain wall that closes a strip and cannot be a mirror: 2 and 4 of `**`, 3 of `*22∞`.
 [[nodiscard]] bool is_end_wall(const notation::Orbifold& orbifold, int number);
-/// A full mirror of reflectance 0.9; the ends of a strip are plain.
+/// A full mirror of reflectance 0.9; the ends of strips are plain.
 [[nodiscard]] Wall default_wall(bool is_end);
 /// A frame's looks: gilt wood.
 [[nodiscard]] Frame default_frame();
