@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "compiler/light/bake.h"
+#include "compiler/bake/bake.h"
 
 namespace orbc::cli {
 namespace {
@@ -39,12 +39,12 @@ const char* without_light(const Situation& now, unsigned) {
 }
 const char* without_paths(const Situation& now, unsigned) {
   return now.opened.scene.integrator == scene::Integrator::path ? nullptr
-                                                                 : "it belongs to `integrator: path`; without it surfaces pass no light on";
+                                                                : "it belongs to `integrator: path`; without it surfaces pass no light on";
 }
 // How finely light is worked out.
 const char* of_quality(const Situation& now, unsigned target) {
   if (target == kTraced) return without_paths(now, target);
-  return light::needs_bake(now.opened.scene, *now.opened.room) ? nullptr : "plain colours are exact, nothing is baked";
+  return bake::needs_bake(now.opened.scene, *now.opened.room) ? nullptr : "plain colours are exact, nothing is baked";
 }
 const char* of_highlights(const Situation& now, unsigned target) {
   if (const char* why = of_the_disk(now, target)) return why;
@@ -90,21 +90,22 @@ constexpr Row kOptions[] = {
 
 // Keys whose effect depends on what is made of the scene; those that never have one are told when the scene is read.
 constexpr Row kKeys[] = {
-    {"ambient", kPictures, without_light},
-    {"bake.atlas", kExports, never},
-    {"bake.lights", kExports, without_lamps},
-    {"bake.mirrors", kPictures, without_lamps},
-    {"bake.quality", kPictures, of_quality},
-    {"cover.min_pixels", kExports, of_the_disk},
+    {"ambient", kPictures, without_light},      {"bake.atlas", kExports, never},         {"bake.lights", kExports, without_lamps},
+    {"bake.mirrors", kPictures, without_lamps}, {"bake.quality", kPictures, of_quality}, {"cover.min_pixels", kExports, of_the_disk},
 };
 
 const char* owner(unsigned targets) {
   switch (targets) {
-    case kTraced: return "it belongs to the tracer";
-    case kGltf: return "it belongs to glTF";
-    case kSvg: return "it belongs to SVG";
-    case kExports: return "it belongs to exports (.pov, .glb, .gltf)";
-    default: return "it belongs to pictures and exports, not to the tiling";
+    case kTraced:
+      return "it belongs to the tracer";
+    case kGltf:
+      return "it belongs to glTF";
+    case kSvg:
+      return "it belongs to SVG";
+    case kExports:
+      return "it belongs to exports (.pov, .glb, .gltf)";
+    default:
+      return "it belongs to pictures and exports, not to the tiling";
   }
 }
 
@@ -130,7 +131,7 @@ Diagnostics without_effect(const std::vector<std::string>& options, const Use& u
     const char* why = row == std::end(kOptions) ? nullptr : why_idle(*row, now);
     if (why) told.push_back(make_warning("cli.no-effect", fmt::format("--{} changes nothing here: {}", option, why), "leave it out"));
   }
-  if (use.targets == kSvg) return told;   // a scene is written for pictures; its tiling is a by-product
+  if (use.targets == kSvg) return told;  // a scene is written for pictures; its tiling is a by-product
   for (const scene::GivenKey& key : opened.scene.given) {
     const Row* row = std::find_if(std::begin(kKeys), std::end(kKeys), [&](const Row& r) { return key.path == r.name; });
     const char* why = row == std::end(kKeys) ? nullptr : why_idle(*row, now);

@@ -48,7 +48,7 @@ std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::
 }
 
 /// What the copies are drawn from.
-std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock, const Choice& choice) {
+std::vector<bend::Model> models_of(const bake::Atlas& atlas, const Stock& stock, const Choice& choice) {
   std::vector<bend::Model> models;
   for (const auto& levels : choice.models) {
     models.emplace_back();
@@ -61,8 +61,8 @@ std::vector<bend::Model> models_of(const light::Atlas& atlas, const Stock& stock
 }
 
 /// The same for light, by number.
-light::DrawnParts parts_of(const Stock& stock, const Choice& choice) {
-  light::DrawnParts parts{{}, choice.model_of_copy, stock.beside};
+bake::DrawnParts parts_of(const Stock& stock, const Choice& choice) {
+  bake::DrawnParts parts{{}, choice.model_of_copy, stock.beside};
   for (const auto& levels : choice.models) {
     parts.models.emplace_back();
     for (std::size_t p = 0; p < levels.size(); ++p) parts.models.back().push_back(stock.part_of_level[p][levels[p]]);
@@ -103,7 +103,7 @@ Result<std::vector<cover::Copy>> unfolded(const Opened& opened, const CompileOpt
   return cover::unfold(*opened.room, opened.eye, opened.scene.cover, {std::min(most, cover::UnfoldOptions().max_copies), progress});
 }
 
-constexpr std::uint64_t kMany = 1'000'000;   // triangles before splitting: from here on it pays to look ahead
+constexpr std::uint64_t kMany = 1'000'000;  // triangles before splitting: from here on it pays to look ahead
 
 /// All that bending needs.
 struct Ready {
@@ -115,12 +115,12 @@ struct Ready {
   bend::BendOptions bending;
   std::uint64_t left_out = 0, curtains = 0;
   double left_out_px = 0;
-  bool hangs = false;           ///< whether there are panels in mirrors at all
+  bool hangs = false;  ///< whether there are panels in mirrors at all
   bool curtains_dropped = false;
   LevelTally tally;
   Beyond beyond;
-  std::vector<Shine> shine;     ///< per copy, where what glows has copies of its own
-  ByObject objects;             ///< where copies stand object by object
+  std::vector<Shine> shine;  ///< per copy, where what glows has copies of its own
+  ByObject objects;          ///< where copies stand object by object
 };
 
 /// What is done for the product itself, and left undone where only its triangles are asked for.
@@ -163,7 +163,7 @@ void show(double exposure, Beyond& beyond) {
 /// What lies beyond the cover's end. In: as in `make`. Where only a weight is asked for, the room need not be looked at closely.
 Beyond look(const Opened& opened, const Opened* lit, const Ready& ready, bool expected, const LeftOut& left_out, Purpose purpose,
             const Executor& executor) {
-  constexpr double kRough = 0.004;   // of the room's radius
+  constexpr double kRough = 0.004;  // of the room's radius
   const std::vector<double> bands = left_out ? bands_of(*opened.room, opened.eye) : std::vector<double>{};
   // Panels are exposed like everything else, the background is not.
   const scene::Color background = (opened.scene.exposure > 0 ? 1 / opened.scene.exposure : 1) * opened.scene.cover.background;
@@ -197,7 +197,7 @@ Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions&
   painting.highlights = painting.highlights && for_eye;
   painting.lit = purpose == Purpose::product;
   painting.deep = opened.scene.bake.atlas != scene::AtlasDepth::eight;
-  auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), light::bake_options(opened.scene.bake), painting,
+  auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), bake::bake_options(opened.scene.bake), painting,
                        executor, progress);
   if (!painted) return painted.error();
   ready.painted = std::move(painted).value();
@@ -215,7 +215,7 @@ Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions&
 
 Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const Opened* lit, const CompileOptions& options, Purpose purpose,
                                          const Executor& executor, const Progress& progress) {
-  auto ready = std::make_unique<Ready>();   // models point into it
+  auto ready = std::make_unique<Ready>();  // models point into it
   report(progress, "unfolding", 0, 0);
   if (const auto no = refusal(opened, options, {})) return *no;
   auto copies = unfolded(opened, options, progress);
@@ -223,7 +223,7 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const Opened* lit
   if (const auto no = refusal(opened, options, *copies)) return *no;
   ready->copies = std::move(copies).value();
   ready->bending = options.bend;
-  ready->bending.colours_vary = options.bend.colours_vary || light::needs_bake(opened.scene, *opened.room);
+  ready->bending.colours_vary = options.bend.colours_vary || bake::needs_bake(opened.scene, *opened.room);
   if (auto wrong = choose_detail(opened, options, *ready, executor, progress); !wrong.empty()) return wrong;
   if (purpose == Purpose::product && options.foresee && ready->tally.triangles > kMany)
     if (const auto planned = plan(opened, options, executor)) options.foresee(*planned);
@@ -365,9 +365,9 @@ Result<cover::Plan> plan_once(const Opened& opened, const CompileOptions& option
 
 /// Why the scene cannot be made, with a hint that was tried.
 Diagnostics with_hint_for(Diagnostics errors, const Opened& opened, const CompileOptions& options, const Executor& executor,
-                 const Progress& progress) {
+                          const Progress& progress) {
   const auto fits = [&](int bounces) {
-    constexpr double kSure = 1.2;   // an estimate's error
+    constexpr double kSure = 1.2;  // an estimate's error
     const auto planned = plan_once(with_bounces(opened, bounces), options, executor, progress);
     return planned && kSure * static_cast<double>(planned->triangles) <= static_cast<double>(options.bend.max_triangles);
   };

@@ -22,8 +22,8 @@ struct CompileOptions {
   bend::BendOptions bend;
   PaintOptions paint;
   std::optional<std::uint64_t> budget;  ///< triangles: where more would come out, the picture's error is let grow until they suffice
-  bool by_object = false;             ///< copies stand in the product object by object, for exporters that give each a node of its own
-  bool levels = true;                 ///< far copies are drawn coarser: what that displaces stays within `bend.tolerance_px`, too
+  bool by_object = false;               ///< copies stand in the product object by object, for exporters that give each a node of its own
+  bool levels = true;                   ///< far copies are drawn coarser: what that displaces stays within `bend.tolerance_px`, too
   std::uint64_t max_memory = std::uint64_t{4} << 30;  ///< half of it for the product, half for the file that is made of it
   /// Told before light is baked what will come of it, where that is much; may be called more than once; or nothing
   std::function<void(const cover::Plan&)> foresee;
@@ -33,32 +33,32 @@ struct CompileOptions {
 struct ToldLevels {
   std::string part;
   std::vector<std::uint64_t> triangles;
-  std::vector<double> error;          ///< intrinsic length
+  std::vector<double> error;  ///< intrinsic length
 };
 
 /// What was made, in numbers; for report.json and the summary.
 struct Report {
   std::uint64_t copies = 0, vertices = 0, triangles = 0;
-  std::uint64_t triangles_whole = 0;  ///< about what they would be without levels of detail
-  std::uint64_t beams = 0, words = 0; ///< copies that are cut to a wedge; distinct words
-  std::uint64_t left_out = 0;         ///< copies that a budget left out: smaller in the picture than `left_out_px`
-  double left_out_px = 0;             ///< 0 when a budget left out none
-  std::uint64_t curtains = 0;         ///< panels in mirrors of copies, in the colour expected behind them (tail.h)
-  bool curtains_dropped = false;      ///< a budget had no room for them
-  double error_bound_px = 0;          ///< nothing is displaced by more, at most `tolerance_px`
-  double weight_lost = 0;             ///< of paths that are cut off by bounces or weight, mean over the picture: what the tail stands for
+  std::uint64_t triangles_whole = 0;   ///< about what they would be without levels of detail
+  std::uint64_t beams = 0, words = 0;  ///< copies that are cut to a wedge; distinct words
+  std::uint64_t left_out = 0;          ///< copies that a budget left out: smaller in the picture than `left_out_px`
+  double left_out_px = 0;              ///< 0 when a budget left out none
+  std::uint64_t curtains = 0;          ///< panels in mirrors of copies, in the colour expected behind them (tail.h)
+  bool curtains_dropped = false;       ///< a budget had no room for them
+  double error_bound_px = 0;           ///< nothing is displaced by more, at most `tolerance_px`
+  double weight_lost = 0;              ///< of paths that are cut off by bounces or weight, mean over the picture: what the tail stands for
   /// The same of paths into copies left out for their size: what curtains stand for whatever the background
   double weight_merged = 0;
-  double tolerance_px = 0;            ///< of bending and of levels together: what was asked for, or what a budget allowed
+  double tolerance_px = 0;  ///< of bending and of levels together: what was asked for, or what a budget allowed
   int longest_word = 0;
-  std::vector<ToldLevels> levels;     ///< of the parts that have some
-  light::HighlightCounts highlights;
+  std::vector<ToldLevels> levels;  ///< of the parts that have some
+  bake::HighlightCounts highlights;
 };
 
 struct Compiled {
   Product product;
   Report report;
-  Diagnostics notes;                  ///< what the author should know of it
+  Diagnostics notes;  ///< what the author should know of it
 };
 
 /// unfold → levels → atlas → plan → bend: the upper road of compiler/README.md.

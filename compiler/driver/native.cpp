@@ -11,10 +11,10 @@
 #include "compiler/bend/log_map.h"
 #include "compiler/cover/beam.h"
 #include "compiler/driver/product_normals.h"
-#include "compiler/light/frame.h"
 #include "compiler/light/image.h"
 #include "compiler/light/lamp.h"
 #include "compiler/light/shade.h"
+#include "compiler/surface/frame.h"
 
 namespace orbc::driver {
 namespace {
@@ -53,15 +53,15 @@ struct Shape {
 Shape shape_of(Space space, const light::HungLamp& lamp, const light::LampImage& image) {
   Shape shape;
   shape.middle = image.samples[0];
-  const light::Frame frame = light::frame_at(space, shape.middle.floor);
-  const auto beside = [&](const Vector3& v) { return light::exponential(space, shape.middle, frame, v); };
-  const Vector3 axis = light::local(space, frame, image.axes[0]);
+  const surface::Frame frame = surface::frame_at(space, shape.middle.floor);
+  const auto beside = [&](const Vector3& v) { return surface::exponential(space, shape.middle, frame, v); };
+  const Vector3 axis = surface::local(space, frame, image.axes[0]);
   shape.along = beside(1e-3 * axis);
   if (image.samples.size() < 5) return shape;
   shape.extended = true;
   const auto offset = [&](std::size_t i) {
     const trace::Segment s = trace::segment_between(space, shape.middle, image.samples[i]);
-    return s.length * light::local(space, frame, {s.ray.c * s.ray.along, s.ray.m});
+    return s.length * surface::local(space, frame, {s.ray.c * s.ray.along, s.ray.m});
   };
   Vector3 across{lamp.radius, 0, 0}, other{0, lamp.radius, 0};
   if (lamp.kind == LampKind::rectangle || lamp.kind == LampKind::disk) {
@@ -140,7 +140,7 @@ Opened unlit_twin(const Opened& opened) {
       m.kind = MaterialKind::matte;
       continue;
     }
-    m.emission *= opened.scene.exposure;   // lamps and ambient light bring it to what is lit
+    m.emission *= opened.scene.exposure;  // lamps and ambient light bring it to what is lit
   }
   std::vector<place::PlacedMesh> parts;
   for (place::PlacedMesh& part : room.parts) {

@@ -34,38 +34,38 @@ double density_for(const place::PlacedRoom& room) {
 }  // namespace
 
 Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
-                      const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options,
-                      const Executor& executor, const Progress& progress) {
+                      const bake::DrawnParts& drawn, const bake::BakeOptions& baking, const PaintOptions& options, const Executor& executor,
+                      const Progress& progress) {
   Painted painted;
-  if (!light::needs_bake(opened.scene, *opened.room)) {
-    auto atlas = light::make_atlas(exposed(room, opened.scene.exposure), {options.max_side, options.deep});
+  if (!bake::needs_bake(opened.scene, *opened.room)) {
+    auto atlas = bake::make_atlas(exposed(room, opened.scene.exposure), {options.max_side, options.deep});
     if (!atlas) return atlas.error();
     painted.atlas = std::move(*atlas);
     return painted;
   }
   painted.baked = true;
   light::LightField field = options.lit ? prepared(opened, executor).light : dark(opened.scene);
-  field.options = light::baked_light_options(opened.scene);
-  light::BakeOptions bake = baking;
+  field.options = bake::baked_light_options(opened.scene);
+  bake::BakeOptions bake = baking;
   bake.max_side = options.max_side;
   bake.deep = options.deep;
   const double denser = density_for(*opened.room);
   bake.coarse *= denser, bake.fine *= denser, bake.texture_fine *= denser;
   if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, field.options.passes = 0;
-  auto baked = light::bake(room, field, bake, executor, progress);
+  auto baked = bake::bake(room, field, bake, executor, progress);
   if (!baked) return baked.error();
-  if (options.highlights && options.lit && light::needs_highlights(*opened.room, field)) {
-    light::HighlightOptions shine = light::highlight_options(opened.scene.bake);
+  if (options.highlights && options.lit && bake::needs_highlights(*opened.room, field)) {
+    bake::HighlightOptions shine = bake::highlight_options(opened.scene.bake);
     shine.max_side = options.max_side;
-    if (light::shows_room(*opened.room, field.lit)) shine.seen_in = see_in(opened, &*baked, executor);
-    painted.highlights = light::bake_highlights(room, field, copies, drawn, opened.eye, shine, *baked, executor, progress);
+    if (bake::shows_room(*opened.room, field.lit)) shine.seen_in = see_in(opened, &*baked, executor);
+    painted.highlights = bake::bake_highlights(room, field, copies, drawn, opened.eye, shine, *baked, executor, progress);
   }
   painted.atlas = std::move(baked->atlas);
   return painted;
 }
 
 void add_highlights(const Painted& painted, std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
-  const std::vector<light::OwnUv>& all = painted.highlights.own;
+  const std::vector<bake::OwnUv>& all = painted.highlights.own;
   for (std::size_t i = 0; i < all.size();) {
     const std::size_t copy = all[i].copy;
     bend::Model model = models[model_of_copy[copy]];

@@ -1,25 +1,25 @@
 #pragma once
+#include "compiler/bake/highlight_bake.h"
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/bend/bend.h"
 #include "compiler/driver/open.h"
-#include "compiler/light/highlight_bake.h"
 
 namespace orbc::driver {
 
 struct PaintOptions {
   /// Of glossy surfaces, and what is seen in mirror, glass and metal objects, for this eye; false: diffuse light alone
   bool highlights = true;
-  int max_side = 16384;    ///< pixels of the atlas
-  bool deep = false;       ///< 16 bits a channel as well
-  bool lit = true;         ///< false: only what triangles and vertices become of it, in plain colours
+  int max_side = 16384;  ///< pixels of the atlas
+  bool deep = false;     ///< 16 bits a channel as well
+  bool lit = true;       ///< false: only what triangles and vertices become of it, in plain colours
 };
 
 /// The colours of a cover: the room in its atlas, and what copies have of their own.
 struct Painted {
-  light::Atlas atlas;
+  bake::Atlas atlas;
   bool baked = false;  ///< light was worked out: colours vary everywhere
-  light::Highlights highlights;
+  bake::Highlights highlights;
 };
 
 /// Plain colours, or, in a scene with lamps, the light of the room, and highlights for the eye.
@@ -27,7 +27,7 @@ struct Painted {
 ///              and which parts they are drawn from.
 /// Diagnostics: those of light.
 [[nodiscard]] Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
-                                    const light::DrawnParts& drawn, const light::BakeOptions& baking, const PaintOptions& options,
+                                    const bake::DrawnParts& drawn, const bake::BakeOptions& baking, const PaintOptions& options,
                                     const Executor& executor, const Progress& progress = {});
 
 /// Gives copies with highlights of their own a model of their own: that of `model_of_copy`, with other places in the atlas for those of its

@@ -1,7 +1,7 @@
 // Drawn copies are ordinary meshes in flat space, whatever space they come from: their normals are those that light would give such parts.
 #include "compiler/driver/product_normals.h"
 
-#include "compiler/light/normals.h"
+#include "compiler/surface/normals.h"
 
 namespace orbc::driver {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 struct Faceted {
   std::vector<std::array<float, 3>> positions, normals;
   std::vector<std::array<float, 2>> uv;
-  std::vector<std::uint32_t> indices;   ///< from 0
+  std::vector<std::uint32_t> indices;  ///< from 0
 };
 
 Faceted faceted(const Product& product, const DrawnCopy& copy) {
@@ -26,9 +26,9 @@ Faceted faceted(const Product& product, const DrawnCopy& copy) {
     for (std::size_t k = 0; k < 3; ++k) t[k] = product.indices[i + k] - static_cast<std::uint32_t>(copy.first_vertex);
     mesh.triangles.push_back(t);
   }
-  const light::PartNormals normals = light::part_normals(flat, mesh);
+  const surface::PartNormals normals = surface::part_normals(flat, mesh);
   Faceted made;
-  for (const light::ShadingVertex& v : normals.vertices) {
+  for (const surface::ShadingVertex& v : normals.vertices) {
     made.positions.push_back(product.positions[copy.first_vertex + v.vertex]);
     made.uv.push_back(product.uv[copy.first_vertex + v.vertex]);
     made.normals.push_back({static_cast<float>(v.normal.floor.x), static_cast<float>(v.normal.floor.y), static_cast<float>(v.normal.z)});

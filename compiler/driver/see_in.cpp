@@ -4,21 +4,21 @@
 #include <memory>
 #include <optional>
 
+#include "compiler/bake/baked_light.h"
 #include "compiler/driver/prepared.h"
 #include "compiler/driver/trace.h"
-#include "compiler/light/baked_light.h"
 #include "compiler/render/shade.h"
 
 namespace orbc::driver {
 namespace {
 
-constexpr double kBack = 0.005;   // of the room's height: farther than rounding reaches, and nearer than anything may stand in between
+constexpr double kBack = 0.005;  // of the room's height: farther than rounding reaches, and nearer than anything may stand in between
 
 struct Looking {
   const orbc::trace::TraceScene& scene;
   const light::LightField& light;
   render::DrawOptions draw;
-  std::optional<light::BakedLight> baked;
+  std::optional<bake::BakedLight> baked;
   double exposure = 1;
 };
 
@@ -30,7 +30,7 @@ orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry
   back.t_min = orbc::trace::kLeave;
   const orbc::trace::Hit hit = closest(scene, back);
   double step = std::max(kBack * scene.room->height, 2 * beside);
-  if (hit.target != orbc::trace::Target::triangle) step = std::min(step, hit.t / 2);   // never out of the room
+  if (hit.target != orbc::trace::Target::triangle) step = std::min(step, hit.t / 2);  // never out of the room
   else if (!surface_at(scene, back, hit).outside) {  // out of the body first, but not into what stands there
     back.t_min = hit.t + orbc::trace::kLeave;
     step = std::max(step, hit.t + std::min(kBack * scene.room->height, (closest(scene, back).t - hit.t) / 2));
@@ -40,7 +40,7 @@ orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry
 
 }  // namespace
 
-light::SeenIn see_in(const Opened& opened, const light::Baked* baked, const Executor& executor) {
+bake::SeenIn see_in(const Opened& opened, const bake::Baked* baked, const Executor& executor) {
   const Prepared& ready = prepared(opened, executor);
   const auto looking = std::make_shared<Looking>(
       Looking{ready.scene, ready.light, draw_options(opened, ready.light, executor), std::nullopt, opened.scene.exposure});

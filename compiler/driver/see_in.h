@@ -1,7 +1,7 @@
 #pragma once
+#include "compiler/bake/highlight_bake.h"
 #include "compiler/base/executor.h"
 #include "compiler/driver/open.h"
-#include "compiler/light/highlight_bake.h"
 
 namespace orbc::driver {
 
@@ -10,6 +10,6 @@ namespace orbc::driver {
 /// In:    an opened scene, and what was baked of it, which outlive the answer. Without the latter all that is seen is lit point by point,
 ///        with `integrator: path` by one guess each.
 /// Error: that of the tracer, and of the texels of what was baked.
-[[nodiscard]] light::SeenIn see_in(const Opened& opened, const light::Baked* baked, const Executor& executor);
+[[nodiscard]] bake::SeenIn see_in(const Opened& opened, const bake::Baked* baked, const Executor& executor);
 
 }  // namespace orbc::driver

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "compiler/bake/bake.h"
 #include "compiler/driver/prepared.h"
 #include "compiler/driver/tail.h"
-#include "compiler/light/bake.h"
 #include "compiler/render/draw.h"
 
 namespace orbc::driver {
@@ -12,14 +12,13 @@ namespace orbc::driver {
 render::DrawOptions draw_options(const Opened& opened, const light::LightField& light, const Executor& executor) {
   render::DrawOptions draw;
   draw.light = light.lit ? &light : nullptr;
-  draw.paths = std::max(1, light::bake_options(opened.scene.bake).passing.samples / 32);
+  draw.paths = std::max(1, bake::bake_options(opened.scene.bake).passing.samples / 32);
   draw.max_bounces = opened.scene.cover.max_bounces;
   draw.min_weight = opened.scene.cover.min_weight;
   draw.background = opened.scene.cover.background;
   // The film is exposed as a whole; the background is not.
   if (light.exposure > 0) draw.background = (1 / light.exposure) * draw.background, draw.white = 1 / light.exposure;
-  if (opened.expected_background)
-    draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color;
+  if (opened.expected_background) draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color;
   return draw;
 }
 

@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "compiler/base/elementary.h"
-#include "compiler/light/frame.h"
 #include "compiler/light/lamp.h"
 #include "compiler/mesh/primitives.h"
 #include "compiler/place/eye.h"
+#include "compiler/surface/frame.h"
 
 namespace orbc::light {
 namespace {
@@ -28,17 +28,17 @@ void add_vertex(place::PlacedMesh& mesh, const Position& p, double height) {
 
 place::PlacedMesh sphere(Space space, const HungLamp& lamp, double radius, double height) {
   const mesh::Mesh ball = mesh::make_sphere(radius, 32, 16);
-  const Frame frame = frame_at(space, lamp.centre.floor);
+  const surface::Frame frame = surface::frame_at(space, lamp.centre.floor);
   place::PlacedMesh mesh;
-  for (const Vector3& v : ball.positions) add_vertex(mesh, exponential(space, lamp.centre, frame, v), height);
+  for (const Vector3& v : ball.positions) add_vertex(mesh, surface::exponential(space, lamp.centre, frame, v), height);
   mesh.triangles = ball.triangles;
   return mesh;
 }
 
 // Across the axis; seen from both sides.
 place::PlacedMesh plate(Space space, const HungLamp& lamp, const scene::Lamp& spec, double height) {
-  const Frame frame = frame_at(space, lamp.centre.floor);
-  const Vector3 axis = local(space, frame, lamp.axes.front());
+  const surface::Frame frame = surface::frame_at(space, lamp.centre.floor);
+  const Vector3 axis = surface::local(space, frame, lamp.axes.front());
   const double h = math::hypot(axis.x, axis.y);
   const Vector3 across = h < 1e-9 ? Vector3{1, 0, 0} : Vector3{-axis.y / h, axis.x / h, 0}, other = geometry::cross(axis, across);
   place::PlacedMesh mesh;
@@ -49,7 +49,7 @@ place::PlacedMesh plate(Space space, const HungLamp& lamp, const scene::Lamp& sp
     const double turn = 2 * std::numbers::pi * i / around;
     const double x = round ? spec.radius * math::cos(turn) : spec.size[0] * (i == 0 || i == 3 ? 0.5 : -0.5),
                  y = round ? spec.radius * math::sin(turn) : spec.size[1] * (i < 2 ? 0.5 : -0.5);
-    add_vertex(mesh, exponential(space, lamp.centre, frame, x * across + y * other), height);
+    add_vertex(mesh, surface::exponential(space, lamp.centre, frame, x * across + y * other), height);
     mesh.triangles.push_back({0, static_cast<std::uint32_t>(1 + i), static_cast<std::uint32_t>(1 + (i + 1) % around)});
   }
   return mesh;
@@ -63,13 +63,14 @@ place::PlacedMesh tube(Space space, const HungLamp& lamp, const scene::Lamp& spe
   for (int j = 0; j <= kAlong; ++j) {
     const double t = length * (static_cast<double>(j) / kAlong - 0.5);
     const Position at = trace::position_at(space, axis, t);
-    const Frame frame = frame_at(space, at.floor);
-    const Vector3 d = local(space, frame, trace::direction_at(space, axis, t));
+    const surface::Frame frame = surface::frame_at(space, at.floor);
+    const Vector3 d = surface::local(space, frame, trace::direction_at(space, axis, t));
     const double h = math::hypot(d.x, d.y);
     const Vector3 across = h < 1e-9 ? Vector3{1, 0, 0} : Vector3{-d.y / h, d.x / h, 0}, other = geometry::cross(d, across);
     for (int i = 0; i < kAround; ++i) {
       const double turn = 2 * std::numbers::pi * i / kAround;
-      add_vertex(mesh, exponential(space, at, frame, (spec.radius * math::cos(turn)) * across + (spec.radius * math::sin(turn)) * other),
+      add_vertex(mesh,
+                 surface::exponential(space, at, frame, (spec.radius * math::cos(turn)) * across + (spec.radius * math::sin(turn)) * other),
                  height);
     }
   }

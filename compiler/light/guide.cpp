@@ -17,9 +17,9 @@ using geometry::Position;
 using geometry::Space;
 using geometry::Vector3;
 
-constexpr double kGuided = 0.5;     // share of directions towards spots: the variance is at most doubled where they are of no use
-constexpr double kSpread = 2;       // radius of a spot over its distance from the lamp: within it lies 55 % of the light on that side
-constexpr double kWidest = 0.5;     // cosine: wider cones are no better than the cosine alone
+constexpr double kGuided = 0.5;  // share of directions towards spots: the variance is at most doubled where they are of no use
+constexpr double kSpread = 2;    // radius of a spot over its distance from the lamp: within it lies 55 % of the light on that side
+constexpr double kWidest = 0.5;  // cosine: wider cones are no better than the cosine alone
 
 // A vector across n; Duff et al., Building an orthonormal basis, revisited (JCGT 2017).
 Vector3 across(const Vector3& n) {
@@ -33,14 +33,14 @@ Vector3 about(const Vector3& axis, double cosine, double turn) {
   return cosine * axis + (sine * math::cos(turn)) * e + (sine * math::sin(turn)) * f;
 }
 
-void add_lobe(const LightField& field, const LampImage& image, const Foot& foot, const LightPoint& point, std::vector<Guide::Lobe>& lobes,
-              const Guide& guide) {
+void add_lobe(const LightField& field, const LampImage& image, const Foot& foot, const surface::LightPoint& point,
+              std::vector<Guide::Lobe>& lobes, const Guide& guide) {
   const Space space = field.scene.prism.space;
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way way = way_to(space, point.at, foot.at, image.sheet);
   if (!way.exists) return;
   const double radius = kSpread * foot.reach, size = math::hypot(way.length, radius), cosine = way.length / size;
-  const Vector3 axis = local(space, guide.frame, way.start);
+  const Vector3 axis = surface::local(space, guide.frame, way.start);
   if (cosine < kWidest) return;
   // How much the spot may add, were it seen: its cosines, never quite 0 for the part of it that lies nearer or higher. A spot on the
   // surface's own plane adds nothing.
@@ -83,12 +83,12 @@ std::vector<Foot> feet_of(const HungLamp& lamp, const place::PlacedRoom& room) {
   return feet;
 }
 
-Guide guide_at(const LightField& field, const LightPoint& point) {
+Guide guide_at(const LightField& field, const surface::LightPoint& point) {
   const Space space = field.scene.prism.space;
   Guide guide;
-  guide.frame = frame_at(space, point.at.floor);
-  guide.normal = geometry::normalised(local(space, guide.frame, point.normal));
-  guide.flat = point.on_triangle ? local(space, guide.frame, point.flat) : guide.normal;
+  guide.frame = surface::frame_at(space, point.at.floor);
+  guide.normal = geometry::normalised(surface::local(space, guide.frame, point.normal));
+  guide.flat = point.on_triangle ? surface::local(space, guide.frame, point.flat) : guide.normal;
   guide.across = across(guide.normal);
   guide.other = cross(guide.normal, guide.across);
   std::vector<Guide::Lobe> lobes;
@@ -135,7 +135,7 @@ Chosen choose(const Guide& guide, const std::array<double, 3>& u) {
   // Below the flat triangle under a smooth normal there is only the triangle itself: such directions are turned up at it.
   const double below = dot(d, guide.flat);
   if (below < 0) d = d - (2 * below) * guide.flat;
-  chosen.direction = global(guide.frame, d);
+  chosen.direction = surface::global(guide.frame, d);
   return chosen;
 }
 

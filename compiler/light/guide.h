@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "compiler/light/frame.h"
 #include "compiler/light/shade.h"
+#include "compiler/surface/frame.h"
 
 namespace orbc::light {
 
@@ -18,22 +18,22 @@ struct Guide {
   static constexpr int kMost = 24;
   struct Lobe {
     geometry::Vector3 axis;
-    double cosine = 1;              ///< of half its opening
-    double share = 0;               ///< of all directions
-    double density = 0;             ///< share / its solid angle
+    double cosine = 1;   ///< of half its opening
+    double share = 0;    ///< of all directions
+    double density = 0;  ///< share / its solid angle
   };
   std::array<Lobe, kMost> lobes;
   int count = 0;
-  double by_cosine = 1;             ///< share of directions by the cosine alone
-  Frame frame;
+  double by_cosine = 1;  ///< share of directions by the cosine alone
+  surface::Frame frame;
   geometry::Vector3 normal, across, other;  ///< orthonormal, in the frame
-  geometry::Vector3 flat;           ///< the surface's true normal: no direction goes below it
+  geometry::Vector3 flat;                   ///< the surface's true normal: no direction goes below it
 };
-[[nodiscard]] Guide guide_at(const LightField& field, const LightPoint& point);
+[[nodiscard]] Guide guide_at(const LightField& field, const surface::LightPoint& point);
 
 struct Chosen {
-  trace::Direction direction;       ///< unit
-  double weight = 0;                ///< cosθ/(π·density); 0: nothing comes from there
+  trace::Direction direction;  ///< unit
+  double weight = 0;           ///< cosθ/(π·density); 0: nothing comes from there
 };
 /// In: numbers in [0, 1).
 [[nodiscard]] Chosen choose(const Guide& guide, const std::array<double, 3>& u);

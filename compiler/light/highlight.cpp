@@ -9,9 +9,9 @@
 
 #include "compiler/base/elementary.h"
 #include "compiler/light/falloff.h"
-#include "compiler/light/lobe.h"
 #include "compiler/light/shade.h"
 #include "compiler/light/way.h"
+#include "compiler/surface/lobe.h"
 
 namespace orbc::light {
 namespace {
@@ -28,7 +28,7 @@ constexpr int kProbes = 4;             // samples that decide whether the lamp i
 /// A surface point under an eye: everything but the lamp.
 struct Lobe {
   Space space;
-  const LightPoint& point;
+  const surface::LightPoint& point;
   const Direction& to_eye;
   Color face_on;
   double a2 = 0, nv = 0;
@@ -36,7 +36,7 @@ struct Lobe {
   /// Distribution of facets whose normal leans by the cosine nh, over 4 cos, and Smith's shadowing towards the eye; `wide` is added to α².
   [[nodiscard]] double towards_eye(double nh, double wide) const {
     const double w = a2 + wide;
-    return facet_density(nh, w) * 0.5 / (nv + std::sqrt(w + (1 - w) * nv * nv));
+    return surface::facet_density(nh, w) * 0.5 / (nv + std::sqrt(w + (1 - w) * nv * nv));
   }
 
   /// Radiance to the eye for unit light across a way.
@@ -46,8 +46,8 @@ struct Lobe {
     const double size = std::sqrt(trace::inner(space, sum, sum));
     if (nl <= 0 || size < 1e-9) return {};
     const Direction half = (1 / size) * sum;
-    return (towards_eye(std::min(1.0, trace::inner(space, point.normal, half)), wide) * facets_seen(nl, a2 + wide)) *
-           reflectance(face_on, trace::inner(space, way, half));
+    return (towards_eye(std::min(1.0, trace::inner(space, point.normal, half)), wide) * surface::facets_seen(nl, a2 + wide)) *
+           surface::reflectance(face_on, trace::inner(space, way, half));
   }
   /// At most that for ways within the angle `turn` of this one.
   [[nodiscard]] double bound(const Direction& way, double turn, double wide) const {
@@ -57,7 +57,7 @@ struct Lobe {
     const double lh = size / 2, lean = turn / (2 * std::max(lh, 0.1));  // (l + v)/|l + v| turns by half as much as l, more at grazing light
     const double nh = size < 1e-9 ? 1 : std::min(1.0, trace::inner(space, point.normal, (1 / size) * sum));
     const double angle = std::max(0.0, math::acos(std::max(-1.0, nh)) - lean);
-    return largest(reflectance(face_on, lh - turn)) * towards_eye(angle > 1.5 ? 0 : math::cos(angle), wide);
+    return largest(surface::reflectance(face_on, lh - turn)) * towards_eye(angle > 1.5 ? 0 : math::cos(angle), wide);
   }
 };
 
@@ -125,15 +125,15 @@ Color gathered(const LightField& field, const LampImage& image, const Lobe& lobe
 
 }  // namespace
 
-Color highlight(const LightField& field, const LightPoint& point, const Direction& to_eye, const scene::Material& material,
+Color highlight(const LightField& field, const surface::LightPoint& point, const Direction& to_eye, const scene::Material& material,
                 const Color& albedo) {
   const Space space = field.scene.prism.space;
-  const double alpha = facet_width(material);
-  const Lobe lobe{space, point, to_eye, face_on(material, albedo), alpha * alpha, trace::inner(space, point.normal, to_eye)};
+  const double alpha = surface::facet_width(material);
+  const Lobe lobe{space, point, to_eye, surface::face_on(material, albedo), alpha * alpha, trace::inner(space, point.normal, to_eye)};
   if (lobe.nv <= 0) return {};
   Color sum;
   for (const std::uint32_t i : images_at(field, point.at)) sum = sum + gathered(field, field.images[i], lobe);
-  return material.kind == scene::MaterialKind::metal ? by_several_facets(lobe.face_on, lobe.nv, alpha) * sum : sum;
+  return material.kind == scene::MaterialKind::metal ? surface::by_several_facets(lobe.face_on, lobe.nv, alpha) * sum : sum;
 }
 
 }  // namespace orbc::light

@@ -11,9 +11,9 @@
 
 #include "compiler/base/elementary.h"
 #include "compiler/geometry/predicates.h"
-#include "compiler/light/frame.h"
-#include "compiler/light/random.h"
 #include "compiler/place/locate.h"
+#include "compiler/surface/frame.h"
+#include "compiler/surface/random.h"
 
 namespace orbc::light {
 namespace {
@@ -37,22 +37,22 @@ std::array<double, 2> spread(int i) {
   if (i < kDesign) return {0.5 + (i % 2 ? kAside : -kAside), 0.5 + (i / 2 ? kAside : -kAside)};
   constexpr double kPlastic = 1.32471795724474602596;
   const int k = pair_of(i) + 1;
-  return {fraction(0.5 + k / kPlastic), fraction(0.5 + k / (kPlastic * kPlastic))};
+  return {surface::fraction(0.5 + k / kPlastic), surface::fraction(0.5 + k / (kPlastic * kPlastic))};
 }
 
 /// The lamp's own frame: axis, and two vectors across.
 struct Mount {
-  Frame floor;
+  surface::Frame floor;
   Vector3 axis{0, 0, -1}, across{1, 0, 0}, other{0, -1, 0};
 };
 
 Mount mount_of(Space space, const Position& centre, const std::optional<Position>& to) {
   Mount mount;
-  mount.floor = frame_at(space, centre.floor);
+  mount.floor = surface::frame_at(space, centre.floor);
   if (!to) return mount;
   const trace::Segment segment = trace::segment_between(space, centre, *to);
   if (segment.length <= 0) return mount;
-  mount.axis = geometry::normalised(local(space, mount.floor, {segment.ray.c * segment.ray.along, segment.ray.m}));
+  mount.axis = geometry::normalised(surface::local(space, mount.floor, {segment.ray.c * segment.ray.along, segment.ray.m}));
   const double h = math::hypot(mount.axis.x, mount.axis.y);
   if (h < 1e-9) {
     mount.axis = {0, 0, mount.axis.z < 0 ? -1.0 : 1.0};
@@ -91,7 +91,7 @@ void add_samples(const scene::Lamp& lamp, Space space, const std::optional<Posit
     add(segment.length / 2);
     for (const double u : {0.104, 0.4, 0.6, 0.896}) add(segment.length * u);  // mean ½, variance 1/12
     for (int i = kDesign; i < kSamples; ++i) {
-      const double u = fraction(0.5 + (pair_of(i) + 1) * 0.6180339887498949);
+      const double u = surface::fraction(0.5 + (pair_of(i) + 1) * 0.6180339887498949);
       add(segment.length * (opposite(i) ? 1 - u : u));
     }
     hung.centre = hung.samples.front();
@@ -100,12 +100,12 @@ void add_samples(const scene::Lamp& lamp, Space space, const std::optional<Posit
   }
   const Mount mount = mount_of(space, hung.centre, to);
   hung.samples.push_back(hung.centre);
-  hung.axes.push_back(global(mount.floor, mount.axis));
+  hung.axes.push_back(surface::global(mount.floor, mount.axis));
   if (lamp.kind == LampKind::point || lamp.kind == LampKind::spot) return;
   for (int i = 0; i < kSamples; ++i) {
     const Vector3 v = offset(lamp, mount, i);
     hung.extent = std::max(hung.extent, geometry::length(v));
-    hung.samples.push_back(exponential(space, hung.centre, mount.floor, v));
+    hung.samples.push_back(surface::exponential(space, hung.centre, mount.floor, v));
     hung.axes.push_back(hung.axes.front());
   }
 }
@@ -128,13 +128,16 @@ bool inside(const room::Room& room, double height, const Position& p) {
 double profile(const HungLamp& lamp, double cos_axis) {
   switch (lamp.kind) {
     case LampKind::rectangle:
-    case LampKind::disk: return std::max(0.0, lamp.gain * cos_axis);
-    case LampKind::tube: return lamp.gain * std::sqrt(std::max(0.0, 1 - cos_axis * cos_axis));
+    case LampKind::disk:
+      return std::max(0.0, lamp.gain * cos_axis);
+    case LampKind::tube:
+      return lamp.gain * std::sqrt(std::max(0.0, 1 - cos_axis * cos_axis));
     case LampKind::spot: {
       const double t = std::clamp((cos_axis - lamp.cone_outer) / (lamp.cone_inner - lamp.cone_outer), 0.0, 1.0);
       return lamp.gain * t * t * (3 - 2 * t);
     }
-    default: return 1;
+    default:
+      return 1;
   }
 }
 
@@ -144,20 +147,28 @@ Result<HungLamps> hang_lamps(const scene::Scene& scene, const room::Room& room) 
   const double height = scene.room.height;
   for (std::size_t i = 0; i < scene.lamps.size(); ++i) {
     const scene::Lamp& lamp = scene.lamps[i];
-    const auto fail = [&](Diagnostics ds) { for (Diagnostic& d : located(std::move(ds), lamp.span)) errors.push_back(std::move(d)); };
+    const auto fail = [&](Diagnostics ds) {
+      for (Diagnostic& d : located(std::move(ds), lamp.span)) errors.push_back(std::move(d));
+    };
     const auto centre = place::locate(lamp.place, room, height, kDefaultHeight * height);
-    if (!centre) { fail(centre.error()); continue; }
+    if (!centre) {
+      fail(centre.error());
+      continue;
+    }
     std::optional<Position> to;
     if (lamp.to) {
       const auto there = place::locate(*lamp.to, room, height, lamp.kind == LampKind::tube ? centre->z : 0);
-      if (!there) { fail(there.error()); continue; }
+      if (!there) {
+        fail(there.error());
+        continue;
+      }
       to = *there;
     }
     HungLamp hung;
     hung.kind = lamp.kind, hung.falloff = lamp.falloff, hung.centre = *centre;
     hung.power = lamp.power * lamp.color;
     hung.radius = lamp.kind == LampKind::point || lamp.kind == LampKind::spot ? kPointRadius
-                  : lamp.kind == LampKind::rectangle                         ? std::min(lamp.size[0], lamp.size[1]) / 2
+                  : lamp.kind == LampKind::rectangle                          ? std::min(lamp.size[0], lamp.size[1]) / 2
                                                                               : lamp.radius;
     add_samples(lamp, room.space, to, hung);
     set_profile(lamp, hung);

@@ -8,9 +8,9 @@
 
 #include "compiler/light/falloff.h"
 #include "compiler/light/guide.h"
-#include "compiler/light/random.h"
 #include "compiler/light/way.h"
 #include "compiler/place/texel.h"
+#include "compiler/surface/random.h"
 
 namespace orbc::light {
 namespace {
@@ -26,7 +26,7 @@ constexpr double kMostShared = 8;     // steps that one turn of several may be o
 constexpr double kSmall = 0.25;       // extent of a lamp over its distance: the third order is 1.5 % of it, and less of the light
 
 /// About how much an image could add at a point; 0 only where it surely adds nothing.
-double expected(const LightField& field, const LampImage& image, const LightPoint& point) {
+double expected(const LightField& field, const LampImage& image, const surface::LightPoint& point) {
   const Space space = field.scene.prism.space;
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
   const Way way = way_to(space, point.origin, image.samples[0], image.sheet);
@@ -64,13 +64,13 @@ Ask ask_of(double steps, int samples, const Turn& turn, std::uint32_t image) {
   int every = 1;
   for (int m = 2; m <= turn.of && m * steps <= 1; ++m)
     if (turn.of % m == 0) every = m;
-  if ((static_cast<std::uint64_t>(turn.rank) + mixed(image)) % static_cast<std::uint64_t>(every) != 0) return {};
+  if ((static_cast<std::uint64_t>(turn.rank) + surface::mixed(image)) % static_cast<std::uint64_t>(every) != 0) return {};
   return {all, turn.rank / every, 1, static_cast<double>(every)};
 }
 
 /// Adds up f(way, light) over the samples of an image, light = unhindered × weight; f(way) = 0 costs no ray.
 template <class F>
-Color gather(const LightField& field, std::uint32_t number, const LightPoint& point, const Turn& turn, const F& f) {
+Color gather(const LightField& field, std::uint32_t number, const surface::LightPoint& point, const Turn& turn, const F& f) {
   const LampImage& image = field.images[number];
   const Space space = field.scene.prism.space;
   const HungLamp& lamp = field.lamps[static_cast<std::size_t>(image.lamp)];
@@ -112,7 +112,7 @@ Color gather(const LightField& field, std::uint32_t number, const LightPoint& po
   return (ask.weight / ask.count) * (lamp.power * sum);
 }
 
-Color falling(const LightField& field, std::uint32_t image, const LightPoint& point, const Turn& turn) {
+Color falling(const LightField& field, std::uint32_t image, const surface::LightPoint& point, const Turn& turn) {
   return gather(field, image, point, turn, [&](const Way& way) { return trace::inner(field.scene.prism.space, way.start, point.normal); });
 }
 
@@ -148,7 +148,7 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
   if (!images) return located(images.error(), scene.bake.mirrors_span);
   field.images = std::move(images).value();
   field.normals.resize(room.parts.size());
-  executor(room.parts.size(), [&](std::size_t i) { field.normals[i] = part_normals(room, room.parts[i]); });
+  executor(room.parts.size(), [&](std::size_t i) { field.normals[i] = surface::part_normals(room, room.parts[i]); });
   auto casting = std::make_shared<place::PlacedRoom>(room);
   if (!place::has_holes(room)) casting->textures.clear();
   casting->parts.erase(
@@ -160,13 +160,13 @@ Result<LightField> prepare_light(const scene::Scene& scene, const place::PlacedR
   return field;
 }
 
-Color irradiance(const LightField& field, const LightPoint& point, const Turn& turn) {
+Color irradiance(const LightField& field, const surface::LightPoint& point, const Turn& turn) {
   Color sum;
   for (const std::uint32_t i : images_at(field, point.at)) sum = sum + falling(field, i, point, turn);
   return sum;
 }
 
-Color irradiance(const LightField& field, const LightPoint& point, const std::vector<std::uint32_t>& images) {
+Color irradiance(const LightField& field, const surface::LightPoint& point, const std::vector<std::uint32_t>& images) {
   Color sum;
   for (const std::uint32_t i : images) sum = sum + falling(field, i, point, {});
   return sum;
@@ -185,7 +185,7 @@ std::vector<std::uint32_t> images_near(const LightField& field, const Position& 
   return near;
 }
 
-Color irradiance_guess(const LightField& field, const LightPoint& point, const std::array<double, 3>& u) {
+Color irradiance_guess(const LightField& field, const surface::LightPoint& point, const std::array<double, 3>& u) {
   const Space space = field.scene.prism.space;
   // An image is asked as often as it could give light, were nothing in between: one is kept of all that pass by, and one number serves
   // them all, since what decided stretches to a number that is even again (Chao 1982).
@@ -223,10 +223,12 @@ Color radiance_out(const LightField& field, const scene::Material& material, con
 
 double white_of(const LightField& field) { return 1 / std::max(field.exposure, 1e-300); }
 
-LightPoint light_point(const LightField& field, const place::PlacedRoom& room, const trace::SurfacePoint& point, const trace::Hit& hit) {
+surface::LightPoint light_point(const LightField& field, const place::PlacedRoom& room, const trace::SurfacePoint& point,
+                                const trace::Hit& hit) {
   if (hit.target == trace::Target::triangle) {
     const auto part = static_cast<std::size_t>(hit.part);
-    return light_point(room, room.parts[part], field.normals[part], static_cast<std::size_t>(hit.triangle), {hit.b[0], hit.b[1], hit.b[2]});
+    return surface::light_point(room, room.parts[part], field.normals[part], static_cast<std::size_t>(hit.triangle),
+                                {hit.b[0], hit.b[1], hit.b[2]});
   }
   return {point.at, point.normal, point.at, point.wall, false};
 }

@@ -8,7 +8,7 @@
 
 #include "compiler/base/elementary.h"
 #include "compiler/light/falloff.h"
-#include "compiler/light/frame.h"
+#include "compiler/surface/frame.h"
 #include "compiler/trace/analytic.h"
 
 namespace orbc::light {
@@ -18,9 +18,9 @@ using geometry::Position;
 using geometry::Space;
 using scene::Color;
 
-constexpr double kArrival = 1e-5;     // how near to the lamp's sample a shadow ray must end; its own error is below 1e-12 in rooms
+constexpr double kArrival = 1e-5;  // how near to the lamp's sample a shadow ray must end; its own error is below 1e-12 in rooms
 
-constexpr double kUnder = 1e-4;       // of the room's height: a thing's own underside lies nearer to the floor on which it stands
+constexpr double kUnder = 1e-4;  // of the room's height: a thing's own underside lies nearer to the floor on which it stands
 
 /// A shadow ray's way through the room: its pieces between mirrors, as long as they meet no plain wall.
 struct ShadowPath {
@@ -44,7 +44,7 @@ struct Towards {
 Towards towards(Space space, const geometry::Point& p, const geometry::Point& q) {
   const double dx = q.x - p.x, dy = q.y - p.y;
   Towards to;
-  double sine = 0;                  // of the arc
+  double sine = 0;  // of the arc
   if (space == Space::euclidean) {
     to.arc = sine = std::sqrt(dx * dx + dy * dy);
     to.direction = {0, dx, dy};
@@ -109,7 +109,7 @@ Way way_to(Space space, const Position& from, const Position& to, int sheet) {
   return way;
 }
 
-Color arriving(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point,
+Color arriving(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const surface::LightPoint& point,
                const Way& way) {
   const Space space = field.scene.prism.space;
   const ShadowPath path = reflected_path(field.scene, leaving(field, point, way.start), way.length * (1 - 1e-9), field.options.bounces);
@@ -126,8 +126,8 @@ Color arriving(const LightField& field, const LampImage& image, const HungLamp& 
   return path.weight;
 }
 
-double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample, const LightPoint& point,
-                  const Way& way) {
+double unhindered(const LightField& field, const LampImage& image, const HungLamp& lamp, std::size_t sample,
+                  const surface::LightPoint& point, const Way& way) {
   const Space space = field.scene.prism.space;
   double value = falloff(lamp.falloff, space, way.length, way.arc, lamp.radius);
   if (lamp.kind == scene::LampKind::point || lamp.kind == scene::LampKind::sphere) return value;
@@ -135,18 +135,18 @@ double unhindered(const LightField& field, const LampImage& image, const HungLam
   return value * profile(lamp, -trace::inner(space, trace::direction_at(space, ray, way.length), image.axes[sample]));
 }
 
-OnSurface on_surface(const LightField& field, const LightPoint& point, double reach) {
+OnSurface on_surface(const LightField& field, const surface::LightPoint& point, double reach) {
   const Space space = field.scene.prism.space;
-  const Frame frame = frame_at(space, point.at.floor);
-  const geometry::Vector3 flat = local(space, frame, point.flat);
+  const surface::Frame frame = surface::frame_at(space, point.at.floor);
+  const geometry::Vector3 flat = surface::local(space, frame, point.flat);
   OnSurface nearest{point, {}};
   for (const double side : {1.0, -1.0}) {
     // From a little behind: the surface may be just here.
-    const Position start = exponential(space, point.at, frame, (-side * trace::kLeave) * flat);
+    const Position start = surface::exponential(space, point.at, frame, (-side * trace::kLeave) * flat);
     const trace::Ray ray = trace::ray_from(space, start, side * point.flat);
     const trace::Hit hit = trace::closest_triangle(field.scene, ray, reach + trace::kLeave);
     if (hit.target != trace::Target::triangle || std::fabs(hit.t - trace::kLeave) >= reach) continue;
-    const LightPoint there = light_point(field, *field.casting, trace::surface_at(field.scene, ray, hit), hit);
+    const surface::LightPoint there = light_point(field, *field.casting, trace::surface_at(field.scene, ray, hit), hit);
     if (trace::inner(space, there.normal, point.normal) < 0.7) continue;  // beyond an edge, or the far side of something thin
     reach = std::fabs(hit.t - trace::kLeave);
     nearest = {there, hit};
@@ -154,15 +154,15 @@ OnSurface on_surface(const LightField& field, const LightPoint& point, double re
   return nearest;
 }
 
-bool covered(const LightField& field, const LightPoint& point) {
+bool covered(const LightField& field, const surface::LightPoint& point) {
   if (field.scene.room == nullptr) return false;
   const Space space = field.scene.prism.space;
-  const Frame frame = frame_at(space, point.at.floor);
-  const geometry::Vector3 n = geometry::normalised(local(space, frame, point.flat)),
+  const surface::Frame frame = surface::frame_at(space, point.at.floor);
+  const geometry::Vector3 n = geometry::normalised(surface::local(space, frame, point.flat)),
                           other = std::fabs(n.z) < 0.7 ? geometry::Vector3{0, 0, 1} : geometry::Vector3{1, 0, 0};
   const geometry::Vector3 a = geometry::normalised(cross(n, other)), b = cross(n, a);
   for (const geometry::Vector3& d : {n, n + 0.5 * a + 0.3 * b, n - 0.45 * a + 0.35 * b, n + 0.1 * a - 0.6 * b}) {
-    trace::Ray ray = trace::ray_from(space, point.at, global(frame, geometry::normalised(d)));
+    trace::Ray ray = trace::ray_from(space, point.at, surface::global(frame, geometry::normalised(d)));
     ray.t_min = std::max(trace::kLeave, kUnder * field.scene.room->height);
     const trace::Hit hit = trace::closest_triangle(field.scene, ray);
     if (hit.target != trace::Target::triangle || trace::surface_at(field.scene, ray, hit).outside) return false;
@@ -170,7 +170,7 @@ bool covered(const LightField& field, const LightPoint& point) {
   return true;
 }
 
-trace::Ray leaving(const LightField& field, const LightPoint& point, const trace::Direction& direction) {
+trace::Ray leaving(const LightField& field, const surface::LightPoint& point, const trace::Direction& direction) {
   trace::Ray ray = trace::ray_from(field.scene.prism.space, point.origin, direction);
   ray.leaves_wall = point.wall;
   ray.t_min = point.on_triangle ? trace::kLeave : 0;

@@ -1,9 +1,9 @@
 #pragma once
 #include <limits>
 
+#include "compiler/bake/baked_light.h"
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
-#include "compiler/light/baked_light.h"
 #include "compiler/light/shade.h"
 #include "compiler/place/eye.h"
 #include "compiler/render/film.h"
@@ -12,15 +12,15 @@
 namespace orbc::render {
 
 struct DrawOptions {
-  int samples = 1;                  ///< per pixel; 1 = the pixel's centre, n² = a regular grid, else a rank-1 lattice
+  int samples = 1;  ///< per pixel; 1 = the pixel's centre, n² = a regular grid, else a rank-1 lattice
   int max_bounces = 12;
   double min_weight = 0;
-  int max_depth = 16;               ///< mirror, glass and metal objects met on one path
-  int glances = 256;                ///< ways, at most, on which rough metals are seen to mirror the room; all samples together
-  int paths = 8;                    ///< `integrator: path`: paths of light from a sample's surface on
+  int max_depth = 16;                        ///< mirror, glass and metal objects met on one path
+  int glances = 256;                         ///< ways, at most, on which rough metals are seen to mirror the room; all samples together
+  int paths = 8;                             ///< `integrator: path`: paths of light from a sample's surface on
   const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
-  const light::BakedLight* baked = nullptr;  ///< where given, what is matte is looked up there instead of being lit
-  scene::Color background;          ///< seen where a path is cut off, times the path's weight like everything else
+  const bake::BakedLight* baked = nullptr;   ///< where given, what is matte is looked up there instead of being lit
+  scene::Color background;                   ///< seen where a path is cut off, times the path's weight like everything else
   /// The most that a surface shows in scenes without light (lit ones: light::white_of)
   double white = std::numeric_limits<double>::infinity();
 };

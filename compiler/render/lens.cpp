@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "compiler/base/elementary.h"
 #include "compiler/base/check.h"
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
-#include "compiler/light/random.h"
+#include "compiler/surface/random.h"
 
 namespace orbc::render {
 
@@ -30,9 +30,9 @@ trace::Ray lens_ray(const place::Eye& eye, double x, double y, const std::array<
 }
 
 std::array<double, 2> lens_point(std::uint64_t seed, std::uint64_t pixel, int k) {
-  constexpr std::uint64_t kOwn = 0x6c656e73;   // a stream of numbers that nothing else of the pixel uses
-  light::Random random(seed, pixel, kOwn);
-  const auto at = light::r3_point(k, random.next_three());
+  constexpr std::uint64_t kOwn = 0x6c656e73;  // a stream of numbers that nothing else of the pixel uses
+  surface::Random random(seed, pixel, kOwn);
+  const auto at = surface::r3_point(k, random.next_three());
   // The square onto the disk, areas kept (Shirley, Chiu, A low distortion map between disk and square, 1997).
   const double a = 2 * at[0] - 1, b = 2 * at[1] - 1;
   if (a == 0 && b == 0) return {0, 0};

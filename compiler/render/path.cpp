@@ -17,12 +17,12 @@ namespace {
 
 using scene::Color;
 
-constexpr int kSurePasses = 2;      // surfaces before which no path is ended by chance: they make most of the light
+constexpr int kSurePasses = 2;  // surfaces before which no path is ended by chance: they make most of the light
 
 // One path, by the direction in which it begins and the numbers that choose what lights its first surface.
-Color walked(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, const light::Chosen& first,
-             const std::array<double, 3>& first_light, light::Random& random) {
-  light::LightPoint at = from;
+Color walked(const place::PlacedRoom& room, const light::LightField& field, const surface::LightPoint& from, const light::Chosen& first,
+             const std::array<double, 3>& first_light, surface::Random& random) {
+  surface::LightPoint at = from;
   light::Leg leg{room, field, random, {}, {1, 1, 1}, {}, {}};
   for (int passes = 0; passes < field.options.passes; ++passes) {
     if (passes >= kSurePasses) {  // whether the path goes on: by a chance that its weight makes up for
@@ -35,7 +35,7 @@ Color walked(const place::PlacedRoom& room, const light::LightField& field, cons
     leg.weight = chosen.weight * leg.weight;
     if (!leg.arrive(light::leaving(field, at, chosen.direction))) break;
     at = light::light_point(field, *field.casting, leg.point, leg.hit);
-    leg.weight = leg.weight * light::surface_color(room, leg.point);
+    leg.weight = leg.weight * surface::surface_color(room, leg.point);
     if (largest(leg.weight) <= 0) break;
     const Color light = light::irradiance_guess(field, at, passes == 0 ? first_light : random.next_three());
     leg.sum = leg.sum + leg.weight * (field.ambient + (1 / std::numbers::pi) * light);
@@ -47,7 +47,7 @@ Color walked(const place::PlacedRoom& room, const light::LightField& field, cons
 
 Chance::Chance(std::uint64_t seed, std::uint64_t pixel, int sample, int samples)
     : random(seed, pixel, static_cast<std::uint64_t>(sample)), before(sample / std::min(samples, kGroups)), turn(turn_of(sample, samples)) {
-  light::Random of_group(~seed, pixel, static_cast<std::uint64_t>(group_of(sample, samples)));
+  surface::Random of_group(~seed, pixel, static_cast<std::uint64_t>(group_of(sample, samples)));
   for (double& v : shift) v = of_group.next();
 }
 
@@ -60,11 +60,11 @@ light::Turn Chance::turn_of(int sample, int samples) {
   return {(i + slope * j) % side + side * j, samples};
 }
 
-Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from, Chance& chance, int paths) {
+Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const surface::LightPoint& from, Chance& chance, int paths) {
   const light::Guide guide = light::guide_at(field, from);
   Color sum;
   for (int k = 0; k < paths; ++k) {
-    const std::array<double, 6> u = light::r6_point(chance.before * paths + k, chance.shift);
+    const std::array<double, 6> u = surface::r6_point(chance.before * paths + k, chance.shift);
     sum = sum + walked(room, field, from, light::choose(guide, {u[0], u[1], u[2]}), {u[3], u[4], u[5]}, chance.random);
   }
   return (1.0 / paths) * sum;

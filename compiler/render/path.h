@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-#include "compiler/light/random.h"
 #include "compiler/render/draw.h"
+#include "compiler/surface/random.h"
 
 namespace orbc::render {
 
@@ -12,10 +12,10 @@ namespace orbc::render {
 /// several by themselves, so that their spread tells the error.
 struct Chance {
   static constexpr int kGroups = 4;
-  light::Random random{0};
+  surface::Random random{0};
   std::array<double, 6> shift{0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
-  int before = 0;                   ///< earlier samples of the same lattice
-  light::Turn turn;                 ///< of the lamps: what this sample asks
+  int before = 0;    ///< earlier samples of the same lattice
+  light::Turn turn;  ///< of the lamps: what this sample asks
   Chance() = default;
   Chance(std::uint64_t seed, std::uint64_t pixel, int sample, int samples);
   /// The order of a pixel's samples in which those with the same remainder, by any number, lie apart: on a grid a lattice of diagonals.
@@ -31,7 +31,7 @@ struct Chance {
 /// In:    how many paths; where they begin (the first direction, and the first sample of a lamp) is spread by a lattice.
 /// Exact: its mean over random numbers is the light asked for, but for: caustics (light of lamps by mirror, glass and metal objects), and
 ///        highlights, which only eyes see.
-[[nodiscard]] scene::Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const light::LightPoint& from,
+[[nodiscard]] scene::Color passed_on(const place::PlacedRoom& room, const light::LightField& field, const surface::LightPoint& from,
                                      Chance& chance, int paths = 1);
 
 /// What the noise of a path-traced film amounts to in its picture: root mean square over all pixels of the stated standard error, in steps

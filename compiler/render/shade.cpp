@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "compiler/light/leg.h"
-#include "compiler/light/lobe.h"
 #include "compiler/render/path.h"
+#include "compiler/surface/lobe.h"
 
 namespace orbc::render {
 namespace {
@@ -25,7 +25,7 @@ Color at_most(const Color& c, double most) { return {std::min(c.r, most), std::m
 
 /// How many ways to look for what a metal mirrors: the rougher, the more, until steps between them no longer show; fewer where it is faint.
 int glances_of(const scene::Material& material, double counts, int most) {
-  const double wanted = kGlances * light::facet_width(material) * std::min(1.0, 2 * counts);
+  const double wanted = kGlances * surface::facet_width(material) * std::min(1.0, 2 * counts);
   int count = 2;
   while (1.5 * count < wanted && count < most) count *= 2;
   return std::min(count, most);
@@ -64,7 +64,7 @@ struct Walker {
     if (trace::inner(space, normal, point.normal) < 0) normal = -normal;
     const Direction flat = point.normal;
     if (trace::inner(space, normal, point.arriving) < 0) point.normal = normal;
-    if (trace::inner(space, light::mirrored(scene, point), flat) <= 0) point.normal = flat;
+    if (trace::inner(space, surface::mirrored(scene, point), flat) <= 0) point.normal = flat;
   }
 
   // What a surface that is neither mirror nor glass shows under the lamps.
@@ -74,7 +74,7 @@ struct Walker {
     // In metal all counts that shines, since each way is but a part of what it shows.
     if (material.kind == scene::MaterialKind::emissive)
       return add(weight * (metals > 0 ? material.emission * color : light::radiance_out(field, material, color, {})));
-    const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
+    const surface::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
     const double white = light::white_of(field);
     const auto known = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
     Color out = known ? white * *known : light::radiance_out(field, material, color, light::irradiance(field, at, chance.turn));
@@ -99,8 +99,8 @@ struct Walker {
   void metal(const trace::Path& path, trace::SurfacePoint point, const scene::Material& material, const Color& color, double share,
              int depth) {
     const light::LightField& field = *options.light;
-    const Color face_on = light::face_on(material, color), weight = part * share * path.weight, white = light::white_of(field) * weight;
-    const light::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
+    const Color face_on = surface::face_on(material, color), weight = part * share * path.weight, white = light::white_of(field) * weight;
+    const surface::LightPoint at = light::light_point(field, *scene.room, point, path.hit);
     const Color lamps = least(weight * light::highlight(field, at, -point.arriving, material, color), white);
     const Color before = seen.radiance, most_before = seen.most;
     const Direction flat = point.normal;
@@ -109,16 +109,16 @@ struct Walker {
     const int paths_before = chance.before;
     const int all = glances_of(material, share * largest(path.weight), std::max(1, options.glances >> (3 * metals)));
     const int count = std::max(1, all / turn.of);
-    const double alpha = light::facet_width(material), facing = -trace::inner(scene.prism.space, point.arriving, point.normal);
-    const Color kept = light::by_several_facets(face_on, facing, alpha) * path.weight;
+    const double alpha = surface::facet_width(material), facing = -trace::inner(scene.prism.space, point.arriving, point.normal);
+    const Color kept = surface::by_several_facets(face_on, facing, alpha) * path.weight;
     part /= count, ++metals;
     for (int i = 0; i < count; ++i) {
       chance.turn = {turn.rank * count + i, turn.of * count};
       chance.before = paths_before * count + i;
-      const auto u = light::facet_numbers(chance.turn.rank, chance.turn.of, metals - 1);
-      const light::Glance way = light::glance(scene.prism.space, point, alpha, u);
+      const auto u = surface::facet_numbers(chance.turn.rank, chance.turn.of, metals - 1);
+      const surface::Glance way = surface::glance(scene.prism.space, point, alpha, u);
       if (way.weight <= 0 || trace::inner(scene.prism.space, way.direction, flat) <= 0) continue;
-      go_on(path, point, way.direction, kept * light::reflectance(face_on, way.cosine), share * way.weight, depth, true);
+      go_on(path, point, way.direction, kept * surface::reflectance(face_on, way.cosine), share * way.weight, depth, true);
     }
     part *= count, --metals;
     chance.turn = turn, chance.before = paths_before;
@@ -130,17 +130,16 @@ struct Walker {
   // In: where the path was followed.
   void light(const trace::Path& path, double share, int depth, const trace::TraceScene& where) {
     add(share * path.glow);
-    if (path.cut_off || path.hit.target == trace::Target::nothing)
-      return add(share * (path.weight * options.background));
+    if (path.cut_off || path.hit.target == trace::Target::nothing) return add(share * (path.weight * options.background));
     trace::SurfacePoint point = trace::surface_at(where, path.last, path.hit);
     if (depth == 0) seen.surface = point, seen.hit = true;
     const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
-    const Color color = light::surface_color(*scene.room, point);
+    const Color color = surface::surface_color(*scene.room, point);
     if (!material) return add(share * (path.weight * at_most(color, options.white)));
     const bool glows = material->kind == scene::MaterialKind::emissive;
     if (glows && !options.light) return add(share * (path.weight * at_most(material->emission * color, options.white)));
     const bool mirror = material->kind == scene::MaterialKind::mirror, glass = material->kind == scene::MaterialKind::glass;
-    const bool polished = options.light && light::polished(*material) && (point.outside || depth == 0);
+    const bool polished = options.light && surface::polished(*material) && (point.outside || depth == 0);
     if (options.light && material->kind == scene::MaterialKind::metal && !polished && depth < options.max_depth &&
         mirrors(point, share, depth))
       return metal(path, point, *material, color, share, depth);
@@ -149,15 +148,15 @@ struct Walker {
       return add(share * (path.weight * at_most(color, options.white)));
     }
     smooth(point, path.hit);
-    if (mirror) return go_on(path, point, light::mirrored(scene, point), path.weight * color, share, depth);
+    if (mirror) return go_on(path, point, surface::mirrored(scene, point), path.weight * color, share, depth);
     if (polished) {
       const double facing = -trace::inner(scene.prism.space, point.arriving, point.normal);
-      const Color kept = light::reflectance(light::face_on(*material, color), facing);
-      return go_on(path, point, light::mirrored(scene, point), path.weight * kept, share, depth);
+      const Color kept = surface::reflectance(surface::face_on(*material, color), facing);
+      return go_on(path, point, surface::mirrored(scene, point), path.weight * kept, share, depth);
     }
-    const light::Refraction through = light::refracted(scene, point, material->index);
+    const surface::Refraction through = surface::refracted(scene, point, material->index);
     const double back = share * through.reflectance, on = share * (1 - through.reflectance), least = metals ? kLeastInMetal : kLeastShare;
-    if (back >= least) go_on(path, point, light::mirrored(scene, point), path.weight, back, depth);
+    if (back >= least) go_on(path, point, surface::mirrored(scene, point), path.weight, back, depth);
     if (on < least) return;
     trace::SurfacePoint behind = point;
     behind.normal = -point.normal;

@@ -9,8 +9,8 @@
 
 #include "compiler/driver/compile.h"
 #include "compiler/light/lamp.h"
-#include "compiler/light/normals.h"
 #include "compiler/room/room.h"
+#include "compiler/surface/normals.h"
 #include "exporters/pov/write_pov.h"
 
 namespace {
@@ -37,10 +37,10 @@ std::string vector(const scene::Color& c) { return vector(c.r, c.g, c.b); }
 /// A part as matte triangles with the normals by which it is lit. Ambient light is emission times the pigment, and adds to what lamps give.
 std::string matte_part(const driver::Opened& opened, const place::PlacedMesh& part) {
   const geometry::Isometry eye_from_room = geometry::inverse(opened.eye.room_from_eye);
-  const light::PartNormals normals = light::part_normals(*opened.room, part);
+  const surface::PartNormals normals = surface::part_normals(*opened.room, part);
   if (part.triangles.empty()) return {};
   std::string points, directions, faces, looks;
-  for (const light::ShadingVertex& v : normals.vertices) {
+  for (const surface::ShadingVertex& v : normals.vertices) {
     const geometry::Point at = part.floor[v.vertex], p = eye_from_room * at;
     const geometry::Point beside = eye_from_room * geometry::Point(at.w, at.x + v.normal.floor.x, at.y + v.normal.floor.y);
     points += ", " + vector(p.x, p.y, part.z[v.vertex]);

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "compiler/light/guide.h"
-#include "compiler/light/random.h"
 #include "compiler/light/way.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
@@ -12,6 +11,7 @@
 #include "compiler/room/realise.h"
 #include "compiler/room/room.h"
 #include "compiler/scene/defaults.h"
+#include "compiler/surface/random.h"
 #include "compiler/trace/analytic.h"
 
 using namespace orbc;
@@ -49,11 +49,11 @@ TEST_CASE("guided directions weigh the hemisphere as the cosine does", "[light]"
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const bool mirrors : {false, true}) {
       const Lit l = lit(notation, 0.8, mirrors);
-      light::Random random(11);
+      surface::Random random(11);
       for (int place = 0; place < 6; ++place) {
         const double phi = 2 * kPi * random.next(), r = place::reach(l.room.room, phi) * random.next();
         const geometry::Point at = geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
-        const light::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
+        const surface::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
         const light::Guide guide = light::guide_at(l.field, point);
         double ones = 0, heights = 0, squares = 0;
         constexpr int kCount = 40000;
@@ -62,8 +62,8 @@ TEST_CASE("guided directions weigh the hemisphere as the cosine does", "[light]"
           ones += c.weight, heights += c.weight * c.direction.z, squares += c.weight * c.weight;
         }
         const double error = std::sqrt(squares / kCount / kCount);
-        CHECK(std::fabs(ones / kCount - 1) < 4 * error);              // ∫ cosθ dω/π
-        CHECK(std::fabs(heights / kCount - 2.0 / 3) < 4 * error);     // ∫ cos²θ dω/π
+        CHECK(std::fabs(ones / kCount - 1) < 4 * error);           // ∫ cosθ dω/π
+        CHECK(std::fabs(heights / kCount - 2.0 / 3) < 4 * error);  // ∫ cos²θ dω/π
       }
     }
 }
@@ -74,13 +74,13 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
     const Lit l = lit(notation, 0.8, false);
     const geometry::Position lamp = l.field.lamps[0].centre;
     const Space space = l.room.room.space;
-    light::Random random(5);
+    surface::Random random(5);
     constexpr int kCount = 400000;
     double by_directions = 0;
     for (int i = 0; i < kCount; ++i) {
       const double z = 2 * random.next() - 1, turn = 2 * kPi * random.next(), h = std::sqrt(1 - z * z);
-      const light::Frame frame = light::frame_at(space, lamp.floor);
-      const trace::Ray ray = trace::ray_from(space, lamp, light::global(frame, {h * std::cos(turn), h * std::sin(turn), z}));
+      const surface::Frame frame = surface::frame_at(space, lamp.floor);
+      const trace::Ray ray = trace::ray_from(space, lamp, surface::global(frame, {h * std::cos(turn), h * std::sin(turn), z}));
       const trace::Hit hit = trace::closest(l.field.scene, ray);
       const geometry::Position at = trace::position_at(space, ray, hit.t);
       by_directions += hit.target == trace::Target::floor && geometry::distance(space, at.floor, {}) < 0.25;
@@ -107,9 +107,9 @@ TEST_CASE("the light of a lamp, asked at random places of a closed room, is its 
          {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::disk, scene::LampKind::rectangle, scene::LampKind::spot}) {
       const Lit l = lit(notation, 1, false, kind);
       const room::Room& room = l.room.room;
-      light::Random random(17);
+      surface::Random random(17);
       double sum = 0, squares = 0;
-      const auto add = [&](const light::LightPoint& point, double area) {
+      const auto add = [&](const surface::LightPoint& point, double area) {
         const double flux = area * light::irradiance(l.field, point).r;
         sum += flux, squares += flux * flux;
       };
@@ -141,7 +141,7 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
     for (const bool mirrors : {false, true}) {
       const Lit l = lit(notation, 0.5, mirrors);
       const Space space = l.room.room.space;
-      light::Random random(8);
+      surface::Random random(8);
       const auto in_floor_patch = [&](const geometry::Point& p) { return geometry::distance(space, p, {}) < 0.3; };
       const auto in_ceiling_patch = [&](const geometry::Point& p) { return p.x / p.w > 0.05; };
       double there = 0, back = 0, squares = 0;
@@ -153,7 +153,7 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
           if (!(from_floor ? in_floor_patch(at) : in_ceiling_patch(at))) continue;
           const double area = geometry::sin_k(space, r) * reach * 2 * kPi / kCount, up = from_floor ? 1 : -1;
           const double z = from_floor ? 0 : l.room.height;
-          const light::LightPoint point{{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false};
+          const surface::LightPoint point{{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false};
           const light::Chosen chosen = light::choose(light::guide_at(l.field, point), random.next_three());
           if (chosen.weight <= 0) continue;
           trace::FollowOptions follow;

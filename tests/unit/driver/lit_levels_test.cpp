@@ -1,14 +1,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "compiler/bake/baked_light.h"
 #include "compiler/driver/levels.h"
 #include "compiler/geometry/point.h"
-#include "compiler/light/baked_light.h"
-#include "compiler/light/frame.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
+#include "compiler/surface/frame.h"
 
 using namespace orbc;
 
@@ -36,29 +36,29 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
     if (!levels[p].empty()) both.parts.push_back(levels[p].back().mesh);
   REQUIRE(both.parts.size() == room.parts.size() + 1);
   const place::PlacedMesh& coarse = both.parts.back();
-  const light::Baked baked = light::bake(both, field, light::BakeOptions{}, serial_executor()).value();
-  const light::BakedLight known(room, baked);
+  const bake::Baked baked = bake::bake(both, field, bake::BakeOptions{}, serial_executor()).value();
+  const bake::BakedLight known(room, baked);
   // Its light is that of the box: fewer points of it are asked than it has vertices.
-  const light::Baked alone = light::bake(room, field, light::BakeOptions{}, serial_executor()).value();
+  const bake::Baked alone = bake::bake(room, field, bake::BakeOptions{}, serial_executor()).value();
   CHECK(baked.counts.points < alone.counts.points + coarse.floor.size());
 
-  const light::PartNormals normals = light::part_normals(both, coarse);
+  const surface::PartNormals normals = surface::part_normals(both, coarse);
   int compared = 0, off = 0;
   for (std::size_t b = 0; b < baked.blocks.back().size(); ++b) {
-    const light::Block& block = baked.blocks.back()[b];
-    const light::Box& box = baked.boxes.back()[b];
+    const bake::Block& block = baked.blocks.back()[b];
+    const bake::Box& box = baked.boxes.back()[b];
     for (const double u : {0.01, 0.3, 0.7, 0.99})
       for (const double v : {0.01, 0.3, 0.7, 0.99}) {
         if (block.second < 0 && u + v > 1) continue;
-        const light::InTriangle in = light::in_triangle(block, u, v);
-        const light::LightPoint at = light::light_point(both, coarse, normals, in.triangle, in.b);
+        const bake::InTriangle in = bake::in_triangle(block, u, v);
+        const surface::LightPoint at = surface::light_point(both, coarse, normals, in.triangle, in.b);
         if (at.at.z < 0.01) continue;
         // What the box itself shows there, seen from just before it.
-        const light::Frame frame = light::frame_at(space, at.at.floor);
-        const geometry::Vector3 out = light::local(space, frame, at.flat);
-        const geometry::Position before = light::exponential(space, at.at, frame, 0.02 * out);
-        const light::Frame there = light::frame_at(space, before.floor);
-        const trace::Ray ray = trace::ray_from(space, before, light::global(there, -1.0 * out));
+        const surface::Frame frame = surface::frame_at(space, at.at.floor);
+        const geometry::Vector3 out = surface::local(space, frame, at.flat);
+        const geometry::Position before = surface::exponential(space, at.at, frame, 0.02 * out);
+        const surface::Frame there = surface::frame_at(space, before.floor);
+        const trace::Ray ray = trace::ray_from(space, before, surface::global(there, -1.0 * out));
         const trace::Hit hit = trace::closest_triangle(field.scene, ray, 0.05);
         if (hit.target != trace::Target::triangle) continue;
         const trace::SurfacePoint seen = trace::surface_at(field.scene, ray, hit);

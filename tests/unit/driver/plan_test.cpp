@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "compiler/bake/atlas.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/compile.h"
 #include "compiler/driver/estimate.h"
 #include "compiler/driver/threads.h"
-#include "compiler/light/atlas.h"
 
 using namespace orbc;
 
@@ -87,7 +87,7 @@ TEST_CASE("few copies tell of all", "[driver][long]") {
   for (const std::string& path : rooms()) {
     const auto opened = open_or_fail(path);
     const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover);
-    const auto atlas = light::make_atlas(*opened.room);
+    const auto atlas = bake::make_atlas(*opened.room);
     REQUIRE((copies && atlas));
     std::size_t bent_copies = 0;
     const auto bend_some = [&](const std::vector<std::size_t>& which) {

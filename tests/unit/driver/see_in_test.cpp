@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "compiler/bake/eye_image.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/trace.h"
-#include "compiler/light/eye_image.h"
 #include "compiler/render/draw.h"
 #include "compiler/render/shade.h"
 
@@ -20,12 +20,15 @@ namespace {
 
 driver::Opened opened(const std::string& orbifold, const std::string& material) {
   const auto path = std::filesystem::temp_directory_path() / ("orbc-see-in-" + std::to_string(getpid()) + ".yaml");
-  std::ofstream(path) << "orbc: 1\norbifold: \"" + orbifold + "\"\nroom: {height: 0.9}\nobjects:\n"
-                         "  - {sphere: {radius: 0.15}, at: {polar: [0.1, 60deg]}, material: " + material + "}\n"
-                         "  - {box: {size: [0.1, 0.1, 0.1]}, at: {polar: [0.3, 100deg]}, material: tomato}\n"
-                         "lights:\n  - {kind: point, at: {polar: [0.05, 200deg], z: 0.8}, power: 8}\n"
-                         "camera: {at: {polar: [0.3, 230deg], z: 0.45}, fov: 100deg, size: [40, 30]}\n"
-                         "cover: {max_bounces: 2}\n";
+  std::ofstream(path) << "orbc: 1\norbifold: \"" + orbifold +
+                             "\"\nroom: {height: 0.9}\nobjects:\n"
+                             "  - {sphere: {radius: 0.15}, at: {polar: [0.1, 60deg]}, material: " +
+                             material +
+                             "}\n"
+                             "  - {box: {size: [0.1, 0.1, 0.1]}, at: {polar: [0.3, 100deg]}, material: tomato}\n"
+                             "lights:\n  - {kind: point, at: {polar: [0.05, 200deg], z: 0.8}, power: 8}\n"
+                             "camera: {at: {polar: [0.3, 230deg], z: 0.45}, fov: 100deg, size: [40, 30]}\n"
+                             "cover: {max_bounces: 2}\n";
   auto done = driver::open_scene(path.string());
   std::filesystem::remove(path);
   REQUIRE(done);
@@ -55,11 +58,11 @@ TEST_CASE("what is seen in mirrors, metals and glass of any copy is what the eye
           // the copy that the eye's ray has come to: the one whose image of the eye it comes from
           for (const cover::Copy& copy : copies) {
             if (copy.bounces != seen.path.bounces || copy.sheet != 0) continue;
-            const trace::Direction to_eye = light::direction_to_eye(copy, scene.eye, seen.surface.at);
+            const trace::Direction to_eye = bake::direction_to_eye(copy, scene.eye, seen.surface.at);
             const trace::Direction off = to_eye + seen.surface.arriving;
             if (trace::inner(scene.room->room.space, off, off) > 1e-12) continue;
             const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy, 0, {});
-            scene::Color in_turns;   // as the points that are one texel share its ways out
+            scene::Color in_turns;  // as the points that are one texel share its ways out
             for (int k = 0; k < 4; ++k) in_turns = in_turns + 0.25 * (copy.weight * see(seen.surface.at, to_eye, copy, 0, {k, 4}));
             shared += std::fabs(c.r - in_turns.r) < 2e-3 && std::fabs(c.g - in_turns.g) < 2e-3 && std::fabs(c.b - in_turns.b) < 2e-3;
             ++met;
@@ -70,7 +73,7 @@ TEST_CASE("what is seen in mirrors, metals and glass of any copy is what the eye
       }
       CHECK(met > 20);
       CHECK(shared >= met - met / 50);
-      CHECK(same >= met - met / 50);   // an edge seen in the ball may fall on either side
+      CHECK(same >= met - met / 50);  // an edge seen in the ball may fall on either side
     }
   }
 }

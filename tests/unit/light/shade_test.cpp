@@ -6,51 +6,26 @@
 #include <random>
 
 #include "compiler/geometry/chart.h"
-#include "compiler/light/bake.h"
 #include "compiler/light/falloff.h"
-#include "compiler/light/frame.h"
 #include "compiler/notation/parse.h"
-#include "compiler/place/furnish.h"
 #include "compiler/place/locate.h"
 #include "compiler/room/realise.h"
 #include "compiler/room/room.h"
 #include "compiler/scene/defaults.h"
+#include "compiler/surface/frame.h"
 #include "compiler/trace/analytic.h"
+#include "tests/support/lit_room.h"
 
 using namespace orbc;
 using geometry::Position;
 using geometry::Space;
+using test::Lit;
+using test::lit;
+using test::lit_scene;
 
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
-
-scene::Scene lit_scene(const std::string& orbifold, scene::LampKind kind, bool mirrors) {
-  scene::Scene scene = scene::default_scene(notation::parse(orbifold).value());
-  for (scene::Wall& wall : scene.room.walls)
-    if (!mirrors) wall.mirrors.clear();
-  scene::Lamp lamp;
-  lamp.kind = kind;
-  lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
-  lamp.place.z = 0.6;
-  scene.lamps = {lamp};
-  return scene;
-}
-
-struct Lit {
-  scene::Scene scene;
-  place::PlacedRoom room;
-  light::LightField field;
-};
-
-Lit lit(scene::Scene scene, int bounces) {
-  Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
-  light::LightOptions options;
-  options.bounces = bounces;
-  options.cut = 0;
-  result.field = light::prepare_light(result.scene, result.room, options).value();
-  return result;
-}
 
 double on_floor(const Lit& l, const geometry::Point& p, double z, double up) {
   return light::irradiance(l.field, {{p, z}, {{0, 0, 0}, up}, {p, z}, -1, false}).r;
@@ -203,7 +178,7 @@ TEST_CASE("the samples of a pixel together see the light that one alone sees, wi
         for (int k = 0; k < 20; ++k) {
           const geometry::Point p =
               geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
-          const light::LightPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
+          const surface::LightPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
           const double whole = light::irradiance(l.field, point).r / kHalfTurn;
           double sum = 0;
           for (int s = 0; s < samples; ++s) {
@@ -225,135 +200,4 @@ TEST_CASE("a white surface under E = π shows as white", "[light]") {
   const scene::Color shown = light::radiance_out(field, {}, {1, 1, 1}, {kHalfTurn, kHalfTurn / 2, 0});
   CHECK(shown.r == Approx(1));
   CHECK(shown.g == Approx(0.5));
-}
-
-TEST_CASE("the normals of a ball are those of the sphere, those of a box are its faces'", "[light]") {
-  scene::Scene scene = lit_scene("*22222", scene::LampKind::point, true);
-  scene.objects.resize(2);
-  scene.objects[0].shape = scene::SphereSpec{0.1};
-  scene.objects[1].shape = scene::BoxSpec{};
-  scene.objects[1].place.floor = scene::AtPolar{0.3, Angle::from_degrees(120)};
-  const Lit l = lit(scene, 0);
-  const std::size_t ball = l.room.parts.size() - 2, box = ball + 1;
-  const light::PartNormals& round = l.field.normals[ball];
-  CHECK(round.vertices.size() == l.room.parts[ball].floor.size());
-  for (const light::ShadingVertex& v : round.vertices) {
-    const double z = (l.room.parts[ball].z[v.vertex] - 0.1) / 0.1;
-    CHECK(v.normal.z == Approx(z).margin(0.05));
-  }
-  for (const light::ShadingVertex& v : l.field.normals[box].vertices)
-    CHECK(std::min(std::fabs(std::fabs(v.normal.z) - 1), std::fabs(v.normal.z)) < 1e-9);
-}
-
-TEST_CASE("the bake holds the light of every point, and the same bytes for any executor", "[light]") {
-  scene::Scene scene = lit_scene("*22222", scene::LampKind::sphere, true);
-  scene.objects.resize(1);
-  scene.objects[0].shape = scene::SphereSpec{0.1};
-  scene.objects[0].place.floor = scene::AtPolar{0.25, Angle::from_degrees(200)};
-  scene.ambient = {0.2, 0.2, 0.2};
-  const Lit l = lit(scene, 1);
-  light::BakeOptions options;
-  options.coarse = 12, options.fine = 48;
-  const light::Baked baked = light::bake(l.room, l.field, options, serial_executor()).value();
-  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
-    for (std::size_t i = count; i-- > 0;) task(i);
-  };
-  CHECK(light::bake(l.room, l.field, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
-  CHECK(baked.atlas.deep.rgb.empty());
-  options.deep = true;
-  const light::Atlas deep = light::bake(l.room, l.field, options, serial_executor())->atlas;
-  REQUIRE(deep.image.rgba == baked.atlas.image.rgba);
-  REQUIRE(deep.deep.rgb.size() == deep.image.rgba.size() / 4 * 3);
-  std::size_t finer = 0;
-  double apart = 0;   // in steps of 8 bits: both are the same light, rounded
-  for (std::size_t i = 0; i < deep.deep.rgb.size(); ++i) {
-    apart = std::max(apart, std::fabs(deep.deep.rgb[i] / 257.0 - deep.image.rgba[i / 3 * 4 + i % 3]));
-    finer += deep.deep.rgb[i] % 257 != 0;
-  }
-  CHECK(apart <= 0.502);
-  CHECK(finer > deep.deep.rgb.size() / 2);
-  int far_off = 0, asked = 0;
-  const mesh::Image& image = baked.atlas.image;
-  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
-    const place::PlacedMesh& part = l.room.parts[p];
-    REQUIRE(baked.atlas.room.parts[p].triangles.size() == part.triangles.size());
-    for (std::size_t t = 0; t < part.triangles.size(); t += 7) {
-      const std::array<double, 3> b{0.3, 0.5, 0.2};
-      const scene::Color e = light::irradiance(l.field, light::light_point(l.room, part, l.field.normals[p], t, b));
-      const place::Look& look = l.room.looks[part.look[t]];
-      const double expected = 255 * scene::encode_srgb(light::radiance_out(l.field, look.material, look.color, e).g);
-      double u = 0, v = 0;
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t id = baked.atlas.room.parts[p].triangles[t][k];
-        u += b[k] * baked.atlas.uv[p][id][0], v += b[k] * baked.atlas.uv[p][id][1];
-      }
-      const double x = u * image.width - 0.5, y = v * image.height - 0.5;
-      const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-      double linear = 0;
-      for (int k = 0; k < 4; ++k) {
-        const int xi = std::min(x0 + k % 2, image.width - 1), yi = std::min(y0 + k / 2, image.height - 1);
-        const double w = (k % 2 ? x - x0 : 1 - x + x0) * (k / 2 ? y - y0 : 1 - y + y0);
-        linear += w * scene::decode_srgb(image.rgba[4 * (static_cast<std::size_t>(yi) * image.width + xi) + 1] / 255.0);
-      }
-      ++asked;
-      far_off += std::fabs(255 * scene::encode_srgb(linear) - expected) > 4;
-    }
-  }
-  CHECK(far_off <= asked / 50);  // shadow borders
-}
-
-TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the four that POV-Ray, Cycles and WebGL blend", "[light]") {
-  // They blend linear light or codes, wrap or clamp: all the same as long as the four are the block's own.
-  scene::Scene scene = lit_scene("*2222", scene::LampKind::sphere, true);
-  scene.objects.resize(1);
-  scene.objects[0].shape = scene::SphereSpec{0.1};
-  const Lit l = lit(scene, 0);
-  light::BakeOptions options;
-  options.coarse = 6, options.fine = 24;
-  const light::Baked baked = light::bake(l.room, l.field, options, serial_executor()).value();
-  const mesh::Image& image = baked.atlas.image;
-  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
-    std::vector<const light::Box*> box(l.room.parts[p].triangles.size(), nullptr);
-    for (std::size_t i = 0; i < baked.blocks[p].size(); ++i) {
-      box[baked.blocks[p][i].first] = &baked.boxes[p][i];
-      if (baked.blocks[p][i].second >= 0) box[static_cast<std::size_t>(baked.blocks[p][i].second)] = &baked.boxes[p][i];
-    }
-    for (std::size_t t = 0; t < box.size(); ++t)
-      for (const std::array<double, 3>& b : {std::array{1.0, 0.0, 0.0},
-                                             {0.0, 1.0, 0.0},
-                                             {0.0, 0.0, 1.0},
-                                             {0.5, 0.5, 0.0},
-                                             {0.0, 0.5, 0.5},
-                                             {0.5, 0.0, 0.5},
-                                             {0.3, 0.3, 0.4}}) {
-        double at[2] = {0, 0};
-        for (std::size_t k = 0; k < 3; ++k)
-          for (std::size_t c = 0; c < 2; ++c)
-            at[c] += b[k] * static_cast<double>(baked.atlas.uv[p][baked.atlas.room.parts[p].triangles[t][k]][c]);
-        const double x = at[0] * image.width - 0.5, y = at[1] * image.height - 0.5;
-        constexpr double kNothing = 2e-3;   // of a texel: what single precision leaves
-        REQUIRE(x > box[t]->x - kNothing);
-        REQUIRE(y > box[t]->y - kNothing);
-        REQUIRE(x < box[t]->x + box[t]->width - 1 + kNothing);
-        REQUIRE(y < box[t]->y + box[t]->height - 1 + kNothing);
-      }
-  }
-}
-
-TEST_CASE("solid patterns are the same stone everywhere and stay between their colours", "[light]") {
-  CHECK(light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2) ==
-        light::solid_pattern(scene::Pattern::granite, {0.1, 0.2, 0.3}, 0.2));
-  for (const scene::Pattern pattern : {scene::Pattern::marble, scene::Pattern::wood, scene::Pattern::granite}) {
-    double low = 1, high = 0, jump = 0, last = 0;
-    for (int i = 0; i < 4000; ++i) {
-      const double t = light::solid_pattern(pattern, {i * 0.0005, 0.3 - i * 0.0002, i * 0.0001}, 0.25);
-      low = std::min(low, t), high = std::max(high, t);
-      if (i > 0) jump = std::max(jump, std::fabs(t - last));
-      last = t;
-    }
-    CHECK(low >= 0);
-    CHECK(high <= 1);
-    CHECK(high - low > 0.5);
-    CHECK(jump < 0.3);
-  }
 }

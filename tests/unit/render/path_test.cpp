@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/bake/baked_light.h"
 #include "compiler/geometry/chart.h"
-#include "compiler/light/baked_light.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/render/shade.h"
@@ -71,7 +71,7 @@ scene::Scene bare(const char* notation, const scene::Color& albedo, bool mirrors
 }
 
 struct Mean {
-  double value = 0, error = 0;      ///< of the picture, red
+  double value = 0, error = 0;  ///< of the picture, red
 };
 Mean mean_of(const render::Film& film) {
   Mean mean;
@@ -84,7 +84,6 @@ Mean mean_of(const render::Film& film) {
 }
 
 const char* const kRooms[] = {"*222", "*2222", "*22222"};  // S², E², H²
-
 
 /// A matte ball of 0.5 in a room that gives off 0.4 everywhere.
 scene::Scene glowing(const char* notation) {
@@ -167,7 +166,7 @@ TEST_CASE("metal shows what it keeps of a furnace: white all of it, however roug
 TEST_CASE("gloss and metal under lamps are as bright by few samples a pixel as by many", "[render]") {
   for (const char* notation : kRooms)
     for (const auto kind : {scene::MaterialKind::glossy, scene::MaterialKind::metal}) {
-      scene::Scene s = bare(notation, {0, 0, 0}, false);   // so that all light is of the ball
+      scene::Scene s = bare(notation, {0, 0, 0}, false);  // so that all light is of the ball
       s.objects[0].material->kind = kind, s.objects[0].material->roughness = kind == scene::MaterialKind::metal ? 0.3 : 0.15;
       s.objects[0].material->color = kind == scene::MaterialKind::metal ? scene::Color{0.9, 0.6, 0.3} : scene::Color{};
       scene::Lamp lamp;
@@ -179,7 +178,7 @@ TEST_CASE("gloss and metal under lamps are as bright by few samples a pixel as b
       std::vector<double> means;
       for (const int samples : {4, 9, 36}) {
         render::DrawOptions options = drawing(*l, samples);
-        options.glances = 4;   // the room is black
+        options.glances = 4;  // the room is black
         const render::Film film = render::draw(l->traced, eye, options, serial_executor());
         double sum = 0;
         for (const scene::Color& c : film.color) sum += c.r;
@@ -187,7 +186,7 @@ TEST_CASE("gloss and metal under lamps are as bright by few samples a pixel as b
       }
       REQUIRE(means.back() > 0.25);
       INFO(notation << ": " << means[0] << " " << means[1] << " " << means[2]);
-      CHECK(means[0] == Approx(means[2]).epsilon(0.03));   // pixels are large beside a highlight
+      CHECK(means[0] == Approx(means[2]).epsilon(0.03));  // pixels are large beside a highlight
       CHECK(means[1] == Approx(means[2]).epsilon(0.02));
     }
 }
@@ -285,8 +284,8 @@ TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that
     s.lamps = {lamp};
     const auto l = lit(s, 1, 2);
     const geometry::Point at = geometry::point_along(l->room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), 0.21);
-    const light::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
-    light::Random random(3);
+    const surface::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
+    surface::Random random(3);
     double sum = 0, squares = 0;
     constexpr int kCount = 40000;
     for (int i = 0; i < kCount; ++i) {
@@ -312,9 +311,9 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
   lamp.power = 3;
   s.lamps = {lamp};
   const auto l = lit(s, 16, 1);
-  light::BakeOptions options;
-  const light::Baked baked = light::bake(l->room, l->field, options, serial_executor()).value();
-  const light::BakedLight known(l->room, baked);
+  bake::BakeOptions options;
+  const bake::Baked baked = bake::bake(l->room, l->field, options, serial_executor()).value();
+  const bake::BakedLight known(l->room, baked);
   int compared = 0;
   double worst = 0;
   for (const double above : {0.002, 0.006, 0.02, 0.06}) {
@@ -331,7 +330,7 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
         const trace::SurfacePoint point = trace::surface_at(l->traced, ray, hit);
         const auto shown = known.at(point, hit);
         if (!shown) continue;
-        const light::LightPoint at = light::light_point(l->field, l->room, point, hit);
+        const surface::LightPoint at = light::light_point(l->field, l->room, point, hit);
         render::Chance chance(1, static_cast<std::uint64_t>(++compared), 0, 1);
         const scene::Color passed = render::passed_on(l->room, l->field, at, chance, 3000);
         const scene::Color truth = light::radiance_out(l->field, l->room.looks[static_cast<std::size_t>(point.look)].material,

@@ -1,0 +1,223 @@
+// Renderers look a texture up between texels in ways of their own (POV-Ray blends linear light and wraps at the borders, Cycles blends
+// encoded values and clamps), so nothing may depend on it: colours are blocks read in their middle, pictures have gutters. Packing by
+// shelves, tallest first.
+#include "compiler/bake/atlas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+namespace orbc::bake {
+namespace {
+
+using place::Look;
+using place::PartKind;
+using place::PlacedMesh;
+using Texel = std::array<std::uint8_t, 4>;
+
+constexpr int kBlock = 4;  // texels of a colour's block: its middle is a corner of four texels, each a whole texel away from the border
+constexpr int kGutter = 4;
+
+/// What a look needs of the atlas: a colour, or a tinted picture.
+struct Cell {
+  int texture = -1;
+  Texel color{};                        ///< of a plain colour
+  std::array<std::uint16_t, 3> deep{};  ///< the same with 16 bits a channel
+  std::array<double, 3> tint{1, 1, 1};
+  bool tiles = false;
+  double cutoff = -1;                   ///< of holes, as in Look
+  int width = kBlock, height = kBlock;  ///< with gutters
+  int x = 0, y = 0;
+  [[nodiscard]] auto key() const { return std::tuple(texture, color, deep, tint, tiles, cutoff); }
+};
+
+std::uint8_t encoded(double linear) {
+  return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0))));
+}
+
+std::uint16_t deeply_encoded(double linear) {
+  return static_cast<std::uint16_t>(std::lround(65535 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0))));
+}
+
+Cell cell_of(const place::PlacedRoom& room, const Look& look, bool tiles) {
+  Cell cell;
+  if (look.texture < 0) {
+    cell.color = {encoded(look.color.r), encoded(look.color.g), encoded(look.color.b), 255};
+    cell.deep = {deeply_encoded(look.color.r), deeply_encoded(look.color.g), deeply_encoded(look.color.b)};
+    return cell;
+  }
+  const mesh::Image& image = room.textures[look.texture];
+  cell.texture = look.texture;
+  cell.tint = {look.color.r, look.color.g, look.color.b};
+  cell.tiles = tiles;
+  cell.cutoff = look.cutoff;
+  cell.width = image.width + 2 * kGutter;
+  cell.height = image.height + 2 * kGutter;
+  return cell;
+}
+
+/// The atlas's cells, and which one each (look, on a panel or not) has.
+struct Layout {
+  std::vector<Cell> cells;
+  std::vector<std::array<int, 2>> of_look;  ///< [look][tiles]; −1 = unused
+  int width = 0, height = 0;
+};
+
+Layout collect(const place::PlacedRoom& room) {
+  Layout layout;
+  layout.of_look.assign(room.looks.size(), {-1, -1});
+  std::map<decltype(Cell{}.key()), int> known;
+  for (const PlacedMesh& part : room.parts)
+    for (const std::uint16_t look : part.look) {
+      const bool tiles = part.kind != PartKind::object;
+      int& cell = layout.of_look[look][tiles];
+      if (cell >= 0) continue;
+      Cell made = cell_of(room, room.looks[look], tiles);
+      const auto [at, is_new] = known.try_emplace(made.key(), static_cast<int>(layout.cells.size()));
+      if (is_new) layout.cells.push_back(made);
+      cell = at->second;
+    }
+  return layout;
+}
+
+// Shelves of a given width; returns the height they take.
+std::int64_t shelve(std::vector<Cell>& cells, const std::vector<int>& order, int width) {
+  std::int64_t y = 0, shelf = 0;
+  int x = 0;
+  for (const int i : order) {
+    if (x + cells[i].width > width) y += shelf, shelf = 0, x = 0;
+    cells[i].x = x, cells[i].y = static_cast<int>(y);
+    x += cells[i].width;
+    shelf = std::max<std::int64_t>(shelf, cells[i].height);
+  }
+  return y + shelf;
+}
+
+// The smallest power of two as width that makes the atlas no higher than wide.
+bool pack(Layout& layout, int max_side) {
+  std::vector<int> order(layout.cells.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return layout.cells[a].height > layout.cells[b].height; });
+  int widest = kBlock;
+  for (const Cell& cell : layout.cells) widest = std::max(widest, cell.width);
+  for (int width = 16; width <= max_side; width *= 2) {
+    if (width < widest) continue;
+    const std::int64_t height = shelve(layout.cells, order, width);
+    if (height > width && width * 2 <= max_side) continue;
+    layout.width = width;
+    layout.height = static_cast<int>(std::min<std::int64_t>(std::max<std::int64_t>(height, kBlock), max_side + 1));
+    return height <= max_side;
+  }
+  return false;
+}
+
+Texel texel_of(const mesh::Image& image, const Cell& cell, const std::array<std::array<std::uint8_t, 256>, 3>& tint, int x, int y) {
+  const auto wrap = [&cell](int i, int n) { return cell.tiles ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); };
+  const std::size_t at = 4 * (static_cast<std::size_t>(wrap(y, image.height)) * image.width + wrap(x, image.width));
+  return {tint[0][image.rgba[at]], tint[1][image.rgba[at + 1]], tint[2][image.rgba[at + 2]],
+          static_cast<std::uint8_t>(image.rgba[at + 3] < cell.cutoff * 255 ? 0 : 255)};
+}
+
+void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
+  std::array<std::array<std::uint8_t, 256>, 3> tint;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < 256; ++i)
+      tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint8_t>(i) : encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
+  for (int y = 0; y < cell.height; ++y)
+    for (int x = 0; x < cell.width; ++x) {
+      const Texel texel = cell.texture < 0 ? cell.color : texel_of(room.textures[cell.texture], cell, tint, x - kGutter, y - kGutter);
+      std::copy(texel.begin(), texel.end(), atlas.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(cell.y + y) * atlas.width + cell.x + x));
+    }
+}
+
+/// The same into the deep picture, from the full precision of colours and of tints.
+void draw(const place::PlacedRoom& room, const Cell& cell, mesh::DeepImage& deep) {
+  std::array<std::array<std::uint16_t, 256>, 3> tint;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < 256; ++i)
+      tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint16_t>(257 * i) : deeply_encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
+  std::array<std::array<std::uint8_t, 256>, 3> same;
+  for (auto& channel : same) std::iota(channel.begin(), channel.end(), std::uint8_t{0});
+  for (int y = 0; y < cell.height; ++y)
+    for (int x = 0; x < cell.width; ++x) {
+      std::array<std::uint16_t, 3> texel = cell.deep;
+      if (cell.texture >= 0) {
+        const Texel code = texel_of(room.textures[cell.texture], cell, same, x - kGutter, y - kGutter);
+        texel = {tint[0][code[0]], tint[1][code[1]], tint[2][code[2]]};
+      }
+      std::copy(texel.begin(), texel.end(), deep.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(cell.y + y) * deep.width + cell.x + x));
+    }
+}
+
+std::array<float, 2> uv_in(const Layout& layout, const Cell& cell, const std::array<float, 2>& own) {
+  if (cell.texture < 0)
+    return {static_cast<float>((cell.x + kBlock / 2.0) / layout.width), static_cast<float>((cell.y + kBlock / 2.0) / layout.height)};
+  const double u = cell.x + kGutter + static_cast<double>(own[0]) * (cell.width - 2 * kGutter);
+  const double v = cell.y + kGutter + static_cast<double>(own[1]) * (cell.height - 2 * kGutter);
+  return {static_cast<float>(u / layout.width), static_cast<float>(v / layout.height)};
+}
+
+// Gives every vertex one place in the atlas: vertices between triangles of different cells are doubled.
+std::vector<std::array<float, 2>> address(const Layout& layout, PlacedMesh& part) {
+  const PlacedMesh own = part;
+  part.floor.clear(), part.z.clear(), part.uv.clear(), part.pattern_position.clear();
+  std::vector<std::array<float, 2>> uv;
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> known;
+  // The first cell that uses a vertex keeps a short list of its own; most vertices have no other.
+  std::vector<std::pair<int, std::uint32_t>> first(own.floor.size(), {-1, 0});
+  for (std::size_t t = 0; t < own.triangles.size(); ++t) {
+    const int cell = layout.of_look[own.look[t]][own.kind != PartKind::object];
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = own.triangles[t][i];
+      const auto fresh = static_cast<std::uint32_t>(part.floor.size());
+      std::uint32_t name = fresh;
+      if (first[v].first < 0) first[v] = {cell, fresh};
+      else if (first[v].first == cell) name = first[v].second;
+      else name = known.try_emplace({v, cell}, fresh).first->second;
+      if (name == fresh) {
+        part.floor.push_back(own.floor[v]);
+        part.z.push_back(own.z[v]);
+        if (!own.uv.empty()) part.uv.push_back(own.uv[v]);
+        if (!own.pattern_position.empty()) part.pattern_position.push_back(own.pattern_position[v]);
+        uv.push_back(uv_in(layout, layout.cells[cell], own.uv.empty() ? std::array<float, 2>{0, 0} : own.uv[v]));
+      }
+      part.triangles[t][i] = name;
+    }
+  }
+  return uv;
+}
+
+}  // namespace
+
+Result<Atlas> make_atlas(const place::PlacedRoom& room, const AtlasOptions& options) {
+  Layout layout = collect(room);
+  if (!pack(layout, options.max_side)) {
+    const auto largest = std::max_element(layout.cells.begin(), layout.cells.end(), [](const Cell& a, const Cell& b) {
+      return static_cast<std::int64_t>(a.width) * a.height < static_cast<std::int64_t>(b.width) * b.height;
+    });
+    return make_error(
+        "light.atlas-too-large", fmt::format("the pictures of this scene do not fit into one of {0}×{0} pixels", options.max_side),
+        fmt::format("the largest picture is {}×{}: make it smaller", largest->width - 2 * kGutter, largest->height - 2 * kGutter));
+  }
+  Atlas atlas;
+  atlas.image.width = layout.width;
+  atlas.image.height = layout.height;
+  // Grey, opaque, where nothing lies.
+  atlas.image.rgba.assign(4 * static_cast<std::size_t>(layout.width) * layout.height, 128);
+  for (std::size_t i = 3; i < atlas.image.rgba.size(); i += 4) atlas.image.rgba[i] = 255;
+  for (const Cell& cell : layout.cells) draw(room, cell, atlas.image);
+  if (options.deep) {
+    atlas.deep.width = layout.width, atlas.deep.height = layout.height;
+    atlas.deep.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
+    for (const Cell& cell : layout.cells) draw(room, cell, atlas.deep);
+  }
+  atlas.room = room;
+  for (PlacedMesh& part : atlas.room.parts) atlas.uv.push_back(address(layout, part));
+  return atlas;
+}
+
+}  // namespace orbc::bake

@@ -1,0 +1,43 @@
+#pragma once
+#include <string>
+#include <utility>
+
+#include "compiler/light/shade.h"
+#include "compiler/notation/parse.h"
+#include "compiler/place/furnish.h"
+#include "compiler/room/realise.h"
+#include "compiler/scene/defaults.h"
+
+namespace orbc::test {
+
+/// The default room of an orbifold with one lamp.
+inline scene::Scene lit_scene(const std::string& orbifold, scene::LampKind kind, bool mirrors) {
+  scene::Scene scene = scene::default_scene(notation::parse(orbifold).value());
+  for (scene::Wall& wall : scene.room.walls)
+    if (!mirrors) wall.mirrors.clear();
+  scene::Lamp lamp;
+  lamp.kind = kind;
+  lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
+  lamp.place.z = 0.6;
+  scene.lamps = {lamp};
+  return scene;
+}
+
+/// A room with its light.
+struct Lit {
+  scene::Scene scene;
+  place::PlacedRoom room;
+  light::LightField field;
+};
+
+/// In: the most mirrors on a path from a lamp. No image of a lamp is left out.
+inline Lit lit(scene::Scene scene, int bounces) {
+  Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
+  light::LightOptions options;
+  options.bounces = bounces;
+  options.cut = 0;
+  result.field = light::prepare_light(result.scene, result.room, options).value();
+  return result;
+}
+
+}  // namespace orbc::test

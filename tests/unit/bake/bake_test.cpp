@@ -1,0 +1,114 @@
+#include "compiler/bake/bake.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/support/lit_room.h"
+
+using namespace orbc;
+using test::Lit;
+using test::lit;
+using test::lit_scene;
+
+TEST_CASE("patterns need a bake even without lamps, plain colours need none", "[bake]") {
+  scene::Scene scene = scene::default_scene(notation::parse("*222").value());
+  const room::Room room = room::realise(scene.orbifold, scene.room.shape).value();
+  CHECK_FALSE(bake::needs_bake(scene, place::furnish(scene, room).value().room));
+  scene.room.floor.material.pattern = scene::Pattern::marble;
+  CHECK(bake::needs_bake(scene, place::furnish(scene, room).value().room));
+}
+
+TEST_CASE("the bake holds the light of every point, and the same bytes for any executor", "[bake]") {
+  scene::Scene scene = lit_scene("*22222", scene::LampKind::sphere, true);
+  scene.objects.resize(1);
+  scene.objects[0].shape = scene::SphereSpec{0.1};
+  scene.objects[0].place.floor = scene::AtPolar{0.25, Angle::from_degrees(200)};
+  scene.ambient = {0.2, 0.2, 0.2};
+  const Lit l = lit(scene, 1);
+  bake::BakeOptions options;
+  options.coarse = 12, options.fine = 48;
+  const bake::Baked baked = bake::bake(l.room, l.field, options, serial_executor()).value();
+  const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    for (std::size_t i = count; i-- > 0;) task(i);
+  };
+  CHECK(bake::bake(l.room, l.field, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
+  CHECK(baked.atlas.deep.rgb.empty());
+  options.deep = true;
+  const bake::Atlas deep = bake::bake(l.room, l.field, options, serial_executor())->atlas;
+  REQUIRE(deep.image.rgba == baked.atlas.image.rgba);
+  REQUIRE(deep.deep.rgb.size() == deep.image.rgba.size() / 4 * 3);
+  std::size_t finer = 0;
+  double apart = 0;  // in steps of 8 bits: both are the same light, rounded
+  for (std::size_t i = 0; i < deep.deep.rgb.size(); ++i) {
+    apart = std::max(apart, std::fabs(deep.deep.rgb[i] / 257.0 - deep.image.rgba[i / 3 * 4 + i % 3]));
+    finer += deep.deep.rgb[i] % 257 != 0;
+  }
+  CHECK(apart <= 0.502);
+  CHECK(finer > deep.deep.rgb.size() / 2);
+  int far_off = 0, asked = 0;
+  const mesh::Image& image = baked.atlas.image;
+  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
+    const place::PlacedMesh& part = l.room.parts[p];
+    REQUIRE(baked.atlas.room.parts[p].triangles.size() == part.triangles.size());
+    for (std::size_t t = 0; t < part.triangles.size(); t += 7) {
+      const std::array<double, 3> b{0.3, 0.5, 0.2};
+      const scene::Color e = light::irradiance(l.field, surface::light_point(l.room, part, l.field.normals[p], t, b));
+      const place::Look& look = l.room.looks[part.look[t]];
+      const double expected = 255 * scene::encode_srgb(light::radiance_out(l.field, look.material, look.color, e).g);
+      double u = 0, v = 0;
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t id = baked.atlas.room.parts[p].triangles[t][k];
+        u += b[k] * baked.atlas.uv[p][id][0], v += b[k] * baked.atlas.uv[p][id][1];
+      }
+      const double x = u * image.width - 0.5, y = v * image.height - 0.5;
+      const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+      double linear = 0;
+      for (int k = 0; k < 4; ++k) {
+        const int xi = std::min(x0 + k % 2, image.width - 1), yi = std::min(y0 + k / 2, image.height - 1);
+        const double w = (k % 2 ? x - x0 : 1 - x + x0) * (k / 2 ? y - y0 : 1 - y + y0);
+        linear += w * scene::decode_srgb(image.rgba[4 * (static_cast<std::size_t>(yi) * image.width + xi) + 1] / 255.0);
+      }
+      ++asked;
+      far_off += std::fabs(255 * scene::encode_srgb(linear) - expected) > 4;
+    }
+  }
+  CHECK(far_off <= asked / 50);  // shadow borders
+}
+
+TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the four that POV-Ray, Cycles and WebGL blend", "[bake]") {
+  // They blend linear light or codes, wrap or clamp: all the same as long as the four are the block's own.
+  scene::Scene scene = lit_scene("*2222", scene::LampKind::sphere, true);
+  scene.objects.resize(1);
+  scene.objects[0].shape = scene::SphereSpec{0.1};
+  const Lit l = lit(scene, 0);
+  bake::BakeOptions options;
+  options.coarse = 6, options.fine = 24;
+  const bake::Baked baked = bake::bake(l.room, l.field, options, serial_executor()).value();
+  const mesh::Image& image = baked.atlas.image;
+  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
+    std::vector<const bake::Box*> box(l.room.parts[p].triangles.size(), nullptr);
+    for (std::size_t i = 0; i < baked.blocks[p].size(); ++i) {
+      box[baked.blocks[p][i].first] = &baked.boxes[p][i];
+      if (baked.blocks[p][i].second >= 0) box[static_cast<std::size_t>(baked.blocks[p][i].second)] = &baked.boxes[p][i];
+    }
+    for (std::size_t t = 0; t < box.size(); ++t)
+      for (const std::array<double, 3>& b : {std::array{1.0, 0.0, 0.0},
+                                             {0.0, 1.0, 0.0},
+                                             {0.0, 0.0, 1.0},
+                                             {0.5, 0.5, 0.0},
+                                             {0.0, 0.5, 0.5},
+                                             {0.5, 0.0, 0.5},
+                                             {0.3, 0.3, 0.4}}) {
+        double at[2] = {0, 0};
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t c = 0; c < 2; ++c)
+            at[c] += b[k] * static_cast<double>(baked.atlas.uv[p][baked.atlas.room.parts[p].triangles[t][k]][c]);
+        const double x = at[0] * image.width - 0.5, y = at[1] * image.height - 0.5;
+        constexpr double kNothing = 2e-3;  // of a texel: what single precision leaves
+        REQUIRE(x > box[t]->x - kNothing);
+        REQUIRE(y > box[t]->y - kNothing);
+        REQUIRE(x < box[t]->x + box[t]->width - 1 + kNothing);
+        REQUIRE(y < box[t]->y + box[t]->height - 1 + kNothing);
+      }
+  }
+}
