@@ -31,7 +31,7 @@ function(orbc_tests name folder)
   set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 1200)
 endfunction()
 
-foreach(room base geometry notation scene room mesh place cover bend trace surface light bake render driver diff)
+foreach(room base geometry image image_io notation scene room mesh place cover bend trace surface light bake render driver diff)
   orbc_tests(test_${room} tests/unit/${room} USES ${room})
 endforeach()
 foreach(room cover bend trace light)

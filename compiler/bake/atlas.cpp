@@ -11,6 +11,9 @@
 #include <map>
 #include <numeric>
 
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
+
 namespace orbc::bake {
 namespace {
 
@@ -25,32 +28,24 @@ constexpr int kGutter = 4;
 /// What a look needs of the atlas: a colour, or a tinted picture.
 struct Cell {
   int texture = -1;
-  Texel color{};                        ///< of a plain colour
-  std::array<std::uint16_t, 3> deep{};  ///< the same with 16 bits a channel
+  Texel color{};                           ///< of a plain colour
+  std::array<std::uint16_t, 3> color16{};  ///< the same with 16 bits a channel
   std::array<double, 3> tint{1, 1, 1};
   bool tiles = false;
   double cutoff = -1;                   ///< of holes, as in Look
   int width = kBlock, height = kBlock;  ///< with gutters
   int x = 0, y = 0;
-  [[nodiscard]] auto key() const { return std::tuple(texture, color, deep, tint, tiles, cutoff); }
+  [[nodiscard]] auto key() const { return std::tuple(texture, color, color16, tint, tiles, cutoff); }
 };
-
-std::uint8_t encoded(double linear) {
-  return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0))));
-}
-
-std::uint16_t deeply_encoded(double linear) {
-  return static_cast<std::uint16_t>(std::lround(65535 * scene::encode_srgb(std::clamp(linear, 0.0, 1.0))));
-}
 
 Cell cell_of(const place::PlacedRoom& room, const Look& look, bool tiles) {
   Cell cell;
   if (look.texture < 0) {
-    cell.color = {encoded(look.color.r), encoded(look.color.g), encoded(look.color.b), 255};
-    cell.deep = {deeply_encoded(look.color.r), deeply_encoded(look.color.g), deeply_encoded(look.color.b)};
+    cell.color = {image::encode_srgb8(look.color.r), image::encode_srgb8(look.color.g), image::encode_srgb8(look.color.b), 255};
+    cell.color16 = {image::encode_srgb16(look.color.r), image::encode_srgb16(look.color.g), image::encode_srgb16(look.color.b)};
     return cell;
   }
-  const mesh::Image& image = room.textures[look.texture];
+  const image::Image& image = room.textures[look.texture];
   cell.texture = look.texture;
   cell.tint = {look.color.r, look.color.g, look.color.b};
   cell.tiles = tiles;
@@ -115,18 +110,20 @@ bool pack(Layout& layout, int max_side) {
   return false;
 }
 
-Texel texel_of(const mesh::Image& image, const Cell& cell, const std::array<std::array<std::uint8_t, 256>, 3>& tint, int x, int y) {
+Texel texel_of(const image::Image& image, const Cell& cell, const std::array<std::array<std::uint8_t, 256>, 3>& tint, int x, int y) {
   const auto wrap = [&cell](int i, int n) { return cell.tiles ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); };
   const std::size_t at = 4 * (static_cast<std::size_t>(wrap(y, image.height)) * image.width + wrap(x, image.width));
   return {tint[0][image.rgba[at]], tint[1][image.rgba[at + 1]], tint[2][image.rgba[at + 2]],
           static_cast<std::uint8_t>(image.rgba[at + 3] < cell.cutoff * 255 ? 0 : 255)};
 }
 
-void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
+void draw(const place::PlacedRoom& room, const Cell& cell, image::Image& atlas) {
   std::array<std::array<std::uint8_t, 256>, 3> tint;
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 256; ++i)
-      tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint8_t>(i) : encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < 256; ++i) {
+      const auto code = static_cast<std::uint8_t>(i);
+      tint[c][i] = cell.tint[c] == 1 ? code : image::encode_srgb8(cell.tint[c] * image::decode_srgb8(code));
+    }
   for (int y = 0; y < cell.height; ++y)
     for (int x = 0; x < cell.width; ++x) {
       const Texel texel = cell.texture < 0 ? cell.color : texel_of(room.textures[cell.texture], cell, tint, x - kGutter, y - kGutter);
@@ -134,22 +131,23 @@ void draw(const place::PlacedRoom& room, const Cell& cell, mesh::Image& atlas) {
     }
 }
 
-/// The same into the deep picture, from the full precision of colours and of tints.
-void draw(const place::PlacedRoom& room, const Cell& cell, mesh::DeepImage& deep) {
+/// The same into the picture of 16 bits, from the full precision of colours and of tints.
+void draw(const place::PlacedRoom& room, const Cell& cell, image::Image16& atlas) {
   std::array<std::array<std::uint16_t, 256>, 3> tint;
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 256; ++i)
-      tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint16_t>(257 * i) : deeply_encoded(cell.tint[c] * scene::decode_srgb(i / 255.0));
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < 256; ++i)
+      tint[c][i] = cell.tint[c] == 1 ? static_cast<std::uint16_t>(257 * i)
+                                     : image::encode_srgb16(cell.tint[c] * image::decode_srgb8(static_cast<std::uint8_t>(i)));
   std::array<std::array<std::uint8_t, 256>, 3> same;
   for (auto& channel : same) std::iota(channel.begin(), channel.end(), std::uint8_t{0});
   for (int y = 0; y < cell.height; ++y)
     for (int x = 0; x < cell.width; ++x) {
-      std::array<std::uint16_t, 3> texel = cell.deep;
+      std::array<std::uint16_t, 3> texel = cell.color16;
       if (cell.texture >= 0) {
         const Texel code = texel_of(room.textures[cell.texture], cell, same, x - kGutter, y - kGutter);
         texel = {tint[0][code[0]], tint[1][code[1]], tint[2][code[2]]};
       }
-      std::copy(texel.begin(), texel.end(), deep.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(cell.y + y) * deep.width + cell.x + x));
+      std::copy(texel.begin(), texel.end(), atlas.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(cell.y + y) * atlas.width + cell.x + x));
     }
 }
 
@@ -210,10 +208,10 @@ Result<Atlas> make_atlas(const place::PlacedRoom& room, const AtlasOptions& opti
   atlas.image.rgba.assign(4 * static_cast<std::size_t>(layout.width) * layout.height, 128);
   for (std::size_t i = 3; i < atlas.image.rgba.size(); i += 4) atlas.image.rgba[i] = 255;
   for (const Cell& cell : layout.cells) draw(room, cell, atlas.image);
-  if (options.deep) {
-    atlas.deep.width = layout.width, atlas.deep.height = layout.height;
-    atlas.deep.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
-    for (const Cell& cell : layout.cells) draw(room, cell, atlas.deep);
+  if (options.with_image16) {
+    atlas.image16.width = layout.width, atlas.image16.height = layout.height;
+    atlas.image16.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
+    for (const Cell& cell : layout.cells) draw(room, cell, atlas.image16);
   }
   atlas.room = room;
   for (PlacedMesh& part : atlas.room.parts) atlas.uv.push_back(address(layout, part));

@@ -3,21 +3,22 @@
 #include <vector>
 
 #include "compiler/base/result.h"
+#include "compiler/image/image.h"
 #include "compiler/place/placed.h"
 
 namespace orbc::bake {
 
 /// One picture for the whole room, and where every vertex of every part finds its colour in it.
 struct Atlas {
-  mesh::Image image;                                  ///< sRGB, rows from top to bottom
+  image::Image image;                                 ///< sRGB, rows from top to bottom
   place::PlacedRoom room;                             ///< the room with vertices split where triangles of different looks met
   std::vector<std::vector<std::array<float, 2>>> uv;  ///< per part, per vertex; v from top to bottom
-  mesh::DeepImage deep;                               ///< the same picture with 16 bits a channel, where that was asked for
+  image::Image16 image16;                             ///< the same picture with 16 bits a channel, where that was asked for
 };
 
 struct AtlasOptions {
-  int max_side = 16384;  ///< pixels
-  bool deep = false;     ///< 16 bits a channel as well
+  int max_side = 16384;       ///< pixels
+  bool with_image16 = false;  ///< 16 bits a channel as well
 };
 
 /// Gathers the plain colours and pictures of a room in one picture.

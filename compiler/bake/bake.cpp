@@ -17,6 +17,7 @@
 #include "compiler/bake/passing.h"
 #include "compiler/bake/pattern_density.h"
 #include "compiler/base/elementary.h"
+#include "compiler/image/srgb.h"
 #include "compiler/light/way.h"
 #include "compiler/place/texel.h"
 
@@ -28,11 +29,6 @@ using scene::Color;
 using Texel = std::array<std::uint8_t, 4>;
 
 constexpr double kMaxDiffuseStep = 5;  // steps of 1/255 between neighbouring points that ask for a point between them
-
-std::array<std::uint16_t, 3> deep_code(const Color& c) {
-  const auto code = [](double v) { return static_cast<std::uint16_t>(std::lround(65535 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
-  return {code(c.r), code(c.g), code(c.b)};
-}
 
 /// A block on its way: irradiance on a grid, every point of it known in the end.
 struct Grid {
@@ -46,7 +42,7 @@ struct Grid {
 struct BakedBlock {
   Box box;
   std::vector<Texel> texels;
-  std::vector<std::array<std::uint16_t, 3>> deep;  ///< the same with 16 bits a channel, where asked for
+  std::vector<std::array<std::uint16_t, 3>> texels16;  ///< the same with 16 bits a channel, where asked for
   std::uint64_t asked = 0;
 };
 
@@ -107,9 +103,9 @@ class BlockBaker {
       }
     done.texels.reserve(shown_at.size());
     for (const Color& c : shown_at) {
-      const auto code = [](double v) { return static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)))); };
-      done.texels.push_back({code(c.r), code(c.g), code(c.b), 255});
-      if (part_.options.deep) done.deep.push_back(deep_code(c));
+      done.texels.push_back({image::encode_srgb8(c.r), image::encode_srgb8(c.g), image::encode_srgb8(c.b), 255});
+      if (part_.options.with_image16)
+        done.texels16.push_back({image::encode_srgb16(c.r), image::encode_srgb16(c.g), image::encode_srgb16(c.b)});
     }
     cut_holes(done);
     return done;
@@ -169,7 +165,7 @@ class BlockBaker {
 
   std::array<double, 3> shown(const Color& light) const {
     const Color c = part_.field.exposure * light::radiance_out(part_.field, *material_, plain_, light);
-    return {255 * scene::encode_srgb(c.r), 255 * scene::encode_srgb(c.g), 255 * scene::encode_srgb(c.b)};
+    return {255 * image::encode_srgb(c.r), 255 * image::encode_srgb(c.g), 255 * image::encode_srgb(c.b)};
   }
   double difference(const Color& a, const Color& b) const {
     if (a == b) return 0;
@@ -422,9 +418,9 @@ Result<Baked> bake(const place::PlacedRoom& room, const light::LightField& field
   atlas.image.width = (*size)[0], atlas.image.height = (*size)[1];
   atlas.image.rgba.assign(4 * static_cast<std::size_t>(atlas.image.width) * static_cast<std::size_t>(atlas.image.height), 128);
   for (std::size_t i = 3; i < atlas.image.rgba.size(); i += 4) atlas.image.rgba[i] = 255;
-  if (options.deep) {
-    atlas.deep.width = atlas.image.width, atlas.deep.height = atlas.image.height;
-    atlas.deep.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
+  if (options.with_image16) {
+    atlas.image16.width = atlas.image.width, atlas.image16.height = atlas.image.height;
+    atlas.image16.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
   }
   for (std::size_t f = 0; f < finished.size(); ++f) {
     Box& box = finished[f].box;
@@ -434,11 +430,11 @@ Result<Baked> bake(const place::PlacedRoom& room, const light::LightField& field
         const Texel& texel = finished[f].texels[static_cast<std::size_t>(y) * box.width + x];
         std::copy(texel.begin(), texel.end(),
                   atlas.image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
-        if (!options.deep) continue;
+        if (!options.with_image16) continue;
         const auto& fine =
-            finished[f].deep[static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x)];
+            finished[f].texels16[static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x)];
         std::copy(fine.begin(), fine.end(),
-                  atlas.deep.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
+                  atlas.image16.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(box.y + y) * atlas.image.width + box.x + x));
       }
   }
   atlas.room = room;

@@ -15,7 +15,7 @@ struct BakeOptions {
   double texture_fine = 400;  ///< the same where a texture or a solid pattern does
   double tolerance = 1.5;     ///< in steps of 1/255 of the picture: what lies between points may be off by
   int max_side = 16384;       ///< pixels of the atlas
-  bool deep = false;          ///< 16 bits a channel as well
+  bool with_image16 = false;  ///< 16 bits a channel as well
   PassOptions passing;        ///< of what surfaces pass on to each other, if LightField::options say that they do
 };
 /// What the author of a scene, or the command line, says of it.

@@ -4,24 +4,18 @@
 #include <array>
 #include <cmath>
 
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
+
 namespace orbc::bake {
 namespace {
 
 using scene::Color;
 
-double decoded(std::uint8_t code) {
-  static const std::array<double, 256> table = [] {
-    std::array<double, 256> all{};
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = scene::decode_srgb(static_cast<double>(i) / 255);
-    return all;
-  }();
-  return table[code];
-}
-
-Color texel(const mesh::Image& image, int x, int y) {
+Color texel(const image::Image& image, int x, int y) {
   const std::uint8_t* p =
       image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
-  return {decoded(p[0]), decoded(p[1]), decoded(p[2])};
+  return {image::decode_srgb8(p[0]), image::decode_srgb8(p[1]), image::decode_srgb8(p[2])};
 }
 
 }  // namespace

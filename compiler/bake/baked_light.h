@@ -4,6 +4,7 @@
 
 #include "compiler/bake/bake.h"
 #include "compiler/bake/surface_map.h"
+#include "compiler/image/image.h"
 
 namespace orbc::bake {
 
@@ -16,7 +17,7 @@ class BakedLight {
   [[nodiscard]] std::optional<scene::Color> at(const trace::SurfacePoint& point, const trace::Hit& hit) const;
 
  private:
-  const mesh::Image& image_;
+  const image::Image& image_;
   SurfaceMap map_;
   std::vector<Box> boxes_;  ///< of all blocks, in the order of the parts
 };

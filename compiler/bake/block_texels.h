@@ -3,7 +3,8 @@
 #include <array>
 
 #include "compiler/bake/blocks.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 #include "compiler/scene/color.h"
 
 namespace orbc::bake {
@@ -11,7 +12,7 @@ namespace orbc::bake {
 /// The diffuse light of a block, as the shared atlas shows it: linear, times the exposure; none of what is all mirror, glass or metal.
 class BlockTexels {
  public:
-  BlockTexels(const mesh::Image& image, const Box& box, bool none) : image_(image), box_(box), none_(none) {}
+  BlockTexels(const image::Image& image, const Box& box, bool none) : image_(image), box_(box), none_(none) {}
   [[nodiscard]] scene::Color at(double u, double v) const {
     if (none_) return {};
     const double x = u * (box_.width - 1), y = v * (box_.height - 1);
@@ -24,17 +25,9 @@ class BlockTexels {
   [[nodiscard]] scene::Color texel(int i, int j) const {
     const std::uint8_t* p = image_.rgba.data() + 4 * (static_cast<std::size_t>(box_.y + j) * static_cast<std::size_t>(image_.width) +
                                                       static_cast<std::size_t>(box_.x + i));
-    return {decoded(p[0]), decoded(p[1]), decoded(p[2])};
+    return {image::decode_srgb8(p[0]), image::decode_srgb8(p[1]), image::decode_srgb8(p[2])};
   }
-  static double decoded(std::uint8_t code) {
-    static const std::array<double, 256> table = [] {
-      std::array<double, 256> all{};
-      for (std::size_t i = 0; i < all.size(); ++i) all[i] = scene::decode_srgb(static_cast<double>(i) / 255);
-      return all;
-    }();
-    return table[code];
-  }
-  const mesh::Image& image_;
+  const image::Image& image_;
   const Box& box_;
   bool none_;
 };

@@ -15,6 +15,7 @@
 #include "compiler/bake/highlight_pack.h"
 #include "compiler/bake/shiny_parts.h"
 #include "compiler/base/elementary.h"
+#include "compiler/image/srgb.h"
 #include "compiler/light/way.h"
 #include "compiler/place/texel.h"
 #include "compiler/surface/lobe.h"
@@ -108,7 +109,7 @@ class PartShine {
   }
   /// Of a colour in the copy's weight, as the picture encodes it.
   [[nodiscard]] std::array<double, 3> seen(const Color& c) const {
-    const auto code = [](double v) { return 255 * scene::encode_srgb(std::clamp(v, 0.0, 1.0)); };
+    const auto code = [](double v) { return 255 * image::encode_srgb(std::clamp(v, 0.0, 1.0)); };
     return {code(job_.weight.r * std::min(c.r, 1.0)), code(job_.weight.g * std::min(c.g, 1.0)), code(job_.weight.b * std::min(c.b, 1.0))};
   }
   [[nodiscard]] double difference(const Color& a, const Color& b) const {
@@ -304,7 +305,7 @@ class PartShine {
           c = sum[shape.index(i - 1, j)] + sum[shape.index(i, j - 1)] + -1.0 * sum[shape.index(i - 1, j - 1)];
           c = {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
         }
-        done.shown.push_back({scene::encode_srgb(c.r), scene::encode_srgb(c.g), scene::encode_srgb(c.b)});
+        done.shown.push_back({image::encode_srgb(c.r), image::encode_srgb(c.g), image::encode_srgb(c.b)});
         if (holes_) done.holes.push_back(in_hole(job_.room, block, static_cast<double>(i) / (w - 1), static_cast<double>(j) / (h - 1)));
       }
     return done;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/image/image.h"
+
 namespace orbc::bake {
 
 std::optional<std::array<int, 2>> pack_below(std::vector<Box*>& boxes, int width, int top, int max_side) {
@@ -27,7 +29,8 @@ std::optional<std::array<int, 2>> pack_below(std::vector<Box*>& boxes, int width
 
 void enlarge(Baked& baked, int width, int height) {
   Atlas& atlas = baked.atlas;
-  mesh::Image larger{width, height, std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128)};
+  image::Image larger{width, height,
+                      std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128)};
   for (std::size_t i = 3; i < larger.rgba.size(); i += 4) larger.rgba[i] = 255;
   for (int y = 0; y < atlas.image.height; ++y) {
     const auto from = atlas.image.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(y) * atlas.image.width;
@@ -37,21 +40,21 @@ void enlarge(Baked& baked, int width, int height) {
   const double u = static_cast<double>(atlas.image.width) / width, v = static_cast<double>(atlas.image.height) / height;
   for (auto& part : atlas.uv)
     for (auto& at : part) at = {static_cast<float>(u * static_cast<double>(at[0])), static_cast<float>(v * static_cast<double>(at[1]))};
-  if (!atlas.deep.rgb.empty()) {
-    mesh::DeepImage finer{width, height,
-                          std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
-    for (int y = 0; y < atlas.deep.height; ++y) {
-      const auto from = atlas.deep.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * atlas.deep.width;
-      std::copy(from, from + 3 * static_cast<std::ptrdiff_t>(atlas.deep.width),
+  if (!atlas.image16.rgb.empty()) {
+    image::Image16 finer{width, height,
+                         std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
+    for (int y = 0; y < atlas.image16.height; ++y) {
+      const auto from = atlas.image16.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * atlas.image16.width;
+      std::copy(from, from + 3 * static_cast<std::ptrdiff_t>(atlas.image16.width),
                 finer.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * width);
     }
-    atlas.deep = std::move(finer);
+    atlas.image16 = std::move(finer);
   }
   atlas.image = std::move(larger);
 }
 
 void put(const Box& box, const std::vector<scene::Color>& shown, const std::vector<std::uint8_t>& holes, Atlas& atlas) {
-  mesh::Image& image = atlas.image;
+  image::Image& image = atlas.image;
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
       const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width) + static_cast<std::size_t>(x);
@@ -60,7 +63,7 @@ void put(const Box& box, const std::vector<scene::Color>& shown, const std::vect
       const double channels[] = {shown[from].r, shown[from].g, shown[from].b};
       for (std::size_t k = 0; k < 3; ++k) {
         image.rgba[4 * at + k] = static_cast<std::uint8_t>(std::lround(255 * channels[k]));
-        if (!atlas.deep.rgb.empty()) atlas.deep.rgb[3 * at + k] = static_cast<std::uint16_t>(std::lround(65535 * channels[k]));
+        if (!atlas.image16.rgb.empty()) atlas.image16.rgb[3 * at + k] = static_cast<std::uint16_t>(std::lround(65535 * channels[k]));
       }
       if (!holes.empty()) image.rgba[4 * at + 3] = holes[from] ? 0 : 255;
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compiler/base/elementary.h"
+#include "compiler/image/srgb.h"
 #include "compiler/surface/albedo.h"
 #include "compiler/surface/random.h"
 
@@ -20,7 +21,7 @@ constexpr int kPlacesPerWrong = 25;   // at one of so many places
 constexpr int kPlaces = 64;           // looked at on a block
 
 double difference(const Color& a, const Color& b) {
-  const auto code = [](double c) { return 255 * scene::encode_srgb(std::clamp(c, 0.0, 1.0)); };
+  const auto code = [](double c) { return 255 * image::encode_srgb(std::clamp(c, 0.0, 1.0)); };
   return std::max({std::fabs(code(a.r) - code(b.r)), std::fabs(code(a.g) - code(b.g)), std::fabs(code(a.b) - code(b.b))});
 }
 

@@ -3,14 +3,15 @@
 
 #include "compiler/cli/commands.h"
 #include "compiler/cli/export.h"
+#include "compiler/image/image.h"
 #include "compiler/mesh/mesh.h"
 
 namespace orbc::cli {
 
 /// A picture by another program, and what it was drawn from.
 struct Drawn {
-  int code = 0;                     ///< exit code; the picture is there when it is kDone, else it has been told why not
-  mesh::Image picture;
+  int code = 0;  ///< exit code; the picture is there when it is kDone, else it has been told why not
+  image::Image picture;
   Exported exported;
 };
 

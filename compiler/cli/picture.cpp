@@ -5,13 +5,13 @@
 #include <filesystem>
 
 #include "compiler/cli/support.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
+#include "compiler/image_io/jpeg.h"
+#include "compiler/image_io/png.h"
 
 namespace orbc::cli {
 
-const char* name(PictureFormat format) {
-  return format == PictureFormat::png ? "png" : format == PictureFormat::jpeg ? "jpeg" : "exr";
-}
+const char* name(PictureFormat format) { return format == PictureFormat::png ? "png" : format == PictureFormat::jpeg ? "jpeg" : "exr"; }
 
 PictureFormat picture_format_of(const std::string& output, bool floats, const std::string& why) {
   if (output == "-") return PictureFormat::png;
@@ -24,8 +24,8 @@ PictureFormat picture_format_of(const std::string& output, bool floats, const st
                                floats ? " or .exr" : ""));
 }
 
-std::string encoded(const mesh::Image& picture, PictureFormat format) {
-  return format == PictureFormat::jpeg ? mesh::encode_jpeg(picture) : mesh::encode_png(picture);
+std::string encoded(const image::Image& picture, PictureFormat format) {
+  return format == PictureFormat::jpeg ? image_io::encode_jpeg(picture) : image_io::encode_png(picture);
 }
 
 }  // namespace orbc::cli

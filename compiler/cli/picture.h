@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "compiler/image/image.h"
 #include "compiler/mesh/mesh.h"
 
 namespace orbc::cli {
@@ -14,6 +15,6 @@ enum class PictureFormat { png, jpeg, exr };
 [[nodiscard]] PictureFormat picture_format_of(const std::string& output, bool floats, const std::string& why);
 
 /// The file's bytes: same picture, same bytes. In: png or jpeg.
-[[nodiscard]] std::string encoded(const mesh::Image& picture, PictureFormat format);
+[[nodiscard]] std::string encoded(const image::Image& picture, PictureFormat format);
 
 }  // namespace orbc::cli

@@ -15,7 +15,8 @@
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace.h"
 #include "compiler/driver/unlit.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image_io/decode.h"
+#include "compiler/image_io/exr.h"
 #include "compiler/render/path.h"
 
 namespace orbc::cli {
@@ -68,8 +69,8 @@ std::string noise_text(const render::Film& film, double exposure) {
 }
 
 nlohmann::ordered_json result_of(const RenderArguments& a, PictureFormat format, const place::Eye& eye) {
-  return {{"output", a.compile.output}, {"format", name(format)}, {"engine", a.engine}, {"width", eye.width}, {"height", eye.height},
-          {"samples", a.samples}};
+  return {{"output", a.compile.output}, {"format", name(format)}, {"engine", a.engine},
+          {"width", eye.width},         {"height", eye.height},   {"samples", a.samples}};
 }
 
 int render_elsewhere(const driver::Opened& opened, const RenderArguments& a, PictureFormat format, const Common& common) {
@@ -93,7 +94,7 @@ int render_here(const driver::Opened& opened, const RenderArguments& a, PictureF
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   write_output(a.compile.output, format == PictureFormat::exr
-                                     ? render::to_exr(film)
+                                     ? image_io::encode_exr(render::to_float_image(film))
                                      : encoded(render::to_image(film, pass_of(a.pass), opened.scene.exposure), format));
   bar.clear();
   nlohmann::ordered_json result = result_of(a, format, opened.eye);
@@ -131,7 +132,7 @@ Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, con
     return {code == 127 ? kMachine : code, {}, {}};
   }
   // Decoded, since such pictures carry dates: what is written of it is the same for the same scene.
-  auto decoded = mesh::load_image(picture, {.max_side = 1 << 20, .max_bytes = std::uint64_t{8} << 30});
+  auto decoded = image_io::load_image(picture, {.max_side = 1 << 20, .max_bytes = std::uint64_t{8} << 30});
   if (!decoded) throw std::runtime_error(fmt::format("cannot read back the picture of {}: {}", a.engine, to_text(decoded.error())));
   drawn.picture = side == 1 ? std::move(*decoded) : driver::averaged(*decoded, side);
   return drawn;
@@ -141,7 +142,7 @@ int render(const RenderArguments& arguments, const Common& common) {
   RenderArguments a = arguments;
   const bool here = a.engine == "tracer";
   const PictureFormat format = picture_format_of(a.compile.output, here, fmt::format("pictures of {} have 8 bits", a.engine));
-  if (format == PictureFormat::exr) a.pass = "color";   // it holds all passes, whichever is asked for
+  if (format == PictureFormat::exr) a.pass = "color";  // it holds all passes, whichever is asked for
   a.samples = samples_of(a);
   keep_standard_output_apart(a.compile.output, common);
   if (a.engine == "povray") (void)side_of(a.samples);

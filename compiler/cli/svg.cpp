@@ -10,6 +10,7 @@
 #include "compiler/cli/expanded_star.h"
 #include "compiler/cli/output.h"
 #include "compiler/cli/support.h"
+#include "compiler/image/srgb.h"
 #include "compiler/notation/euler.h"
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
@@ -69,8 +70,7 @@ PrintSize parse_print_size(const std::string& text) {
 std::string hex_of(const std::string& color, const char* option) {
   const auto parsed = scene::parse_color(color);
   if (!parsed) throw UsageError(fmt::format("{} does not know the color {}; colors are names such as coral, or #ff7f50", option, color));
-  const auto code = [](double channel) { return static_cast<int>(255 * scene::encode_srgb(channel) + 0.5); };
-  return fmt::format("#{:02x}{:02x}{:02x}", code(parsed->r), code(parsed->g), code(parsed->b));
+  return fmt::format("#{:02x}{:02x}{:02x}", image::encode_srgb8(parsed->r), image::encode_srgb8(parsed->g), image::encode_srgb8(parsed->b));
 }
 
 Result<svg::Motif> motif_of(const std::string& text) {

@@ -17,7 +17,7 @@
 #include "compiler/driver/compare.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
 
 namespace orbc::cli {
 namespace {
@@ -80,10 +80,9 @@ Kept kept(const std::string& name) {
   return {name.substr(0, name.size() - ending.size()), ending, known == ".png" ? PictureFormat::png : PictureFormat::jpeg};
 }
 
-void write_pictures(const VerifyArguments& a, const mesh::Image& drawn, const mesh::Image& reference) {
+void write_pictures(const VerifyArguments& a, const image::Image& drawn, const image::Image& reference) {
   if (!a.difference.empty())
-    write_output(a.difference,
-                 encoded(driver::difference_picture(drawn, reference), picture_format_of(a.difference, false, kEightBits)));
+    write_output(a.difference, encoded(driver::difference_picture(drawn, reference), picture_format_of(a.difference, false, kEightBits)));
   if (a.keep.empty()) return;
   const Kept names = kept(a.keep);
   write_output(names.stem + "-export" + names.ending, encoded(drawn, names.format));
@@ -108,11 +107,11 @@ int verify(const VerifyArguments& a, const Common& common) {
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   bar.clear();
-  const mesh::Image reference = render::to_image(film, opened->scene.exposure);
+  const image::Image reference = render::to_image(film, opened->scene.exposure);
   // Two roads are compared, not how coarsely one of them may be walked.
   if (a.compile.scene.quality.empty()) opened->scene.bake.quality = scene::BakeQuality::fine;
   std::vector<Verdict> verdicts;
-  mesh::Image drawn;
+  image::Image drawn;
   Diagnostics told = opened->notes;
   Common silent = common;
   silent.quiet = true;
@@ -135,8 +134,14 @@ int verify(const VerifyArguments& a, const Common& common) {
   write_pictures(a, drawn, reference);
   const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
   if (!common.json) write_output("-", table(verdicts));
-  print_result({{"agrees", all}, {"width", reference.width}, {"height", reference.height}, {"samples", a.samples}, {"within", a.within},
-                {"threshold", a.threshold}, {"off_edge", a.off_edge}, {"pictures", json(verdicts)}},
+  print_result({{"agrees", all},
+                {"width", reference.width},
+                {"height", reference.height},
+                {"samples", a.samples},
+                {"within", a.within},
+                {"threshold", a.threshold},
+                {"off_edge", a.off_edge},
+                {"pictures", json(verdicts)}},
                told, common);
   if (!all && !opened->scene.lamps.empty() && !common.quiet)
     fmt::print(stderr,

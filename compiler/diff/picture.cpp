@@ -5,8 +5,10 @@
 #include <cstdlib>
 
 #include "compiler/diff/compare.h"
-#include "compiler/diff/exr.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
+#include "compiler/image_io/decode.h"
+#include "compiler/image_io/exr.h"
 #include "compiler/scene/color.h"
 
 namespace orbc::diff {
@@ -31,13 +33,13 @@ void take_pixel(double steps, const Limits& limits, Finding& finding, const std:
   if (!finding.differs) finding.differ(place());
 }
 
-void compare_codes(const mesh::Image& a, const mesh::Image& b, const PixelPlace& place, const Limits& limits, Finding& finding) {
+void compare_codes(const image::Image& a, const image::Image& b, const PixelPlace& place, const Limits& limits, Finding& finding) {
   const auto width = static_cast<std::size_t>(a.width);
   for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
     int steps = 0;
     for (std::size_t c = 0; c < 4; ++c) steps = std::max(steps, std::abs(a.rgba[i + c] - b.rgba[i + c]));
     take_pixel(steps, limits, finding, [&] {
-      const auto text = [&](const mesh::Image& image) {
+      const auto text = [&](const image::Image& image) {
         return fmt::format("({}, {}, {}, {})", image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3]);
       };
       return place.at(i / 4 % width, i / 4 / width, text(a) + " against " + text(b));
@@ -49,11 +51,12 @@ void compare_codes(const mesh::Image& a, const mesh::Image& b, const PixelPlace&
 double steps_between(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
   if (!std::isfinite(a) || !std::isfinite(b)) return HUGE_VAL;
-  const auto code = [](float v) { return v < 0 ? 255 * 12.92 * static_cast<double>(v) : 255 * scene::encode_srgb(v); };
+  const auto code = [](float v) { return v < 0 ? 255 * 12.92 * static_cast<double>(v) : 255 * image::encode_srgb(v); };
   return std::max(std::fabs(code(a) - code(b)), 1e-300);  // two different values are never no step apart
 }
 
-void compare_channels(const ExrPicture& a, const ExrPicture& b, const PixelPlace& place, const Limits& limits, Finding& finding) {
+void compare_channels(const image::FloatImage& a, const image::FloatImage& b, const PixelPlace& place, const Limits& limits,
+                      Finding& finding) {
   const auto width = static_cast<std::size_t>(a.width), count = width * static_cast<std::size_t>(a.height);
   std::vector<double> steps(count, 0.0);
   std::vector<std::string> colors;
@@ -77,10 +80,10 @@ void compare_channels(const ExrPicture& a, const ExrPicture& b, const PixelPlace
 }
 
 Diagnostics compare_exr(const EncodedPicture& a, const EncodedPicture& b, const Limits& limits, Finding& finding) {
-  const auto left = read_exr(a.bytes, a.name), right = read_exr(b.bytes, b.name);
-  if (!left) return left.error();
-  if (!right) return right.error();
-  const auto names = [](const ExrPicture& picture) {
+  const auto left = image_io::decode_exr(a.bytes), right = image_io::decode_exr(b.bytes);
+  if (!left) return {bad_file(a.name, left.error().front().message)};
+  if (!right) return {bad_file(b.name, right.error().front().message)};
+  const auto names = [](const image::FloatImage& picture) {
     std::string text = fmt::format("{} x {} pixels of", picture.width, picture.height);
     for (const auto& [name, values] : picture.channels) text += ' ' + name;
     return text;
@@ -95,14 +98,14 @@ Diagnostics compare_exr(const EncodedPicture& a, const EncodedPicture& b, const 
 
 Diagnostics compare_pictures(const EncodedPicture& a, const EncodedPicture& b, const Limits& limits, Finding& finding) {
   ++finding.pictures;
-  if (is_exr(a.bytes) != is_exr(b.bytes))
+  if (image_io::is_exr(a.bytes) != image_io::is_exr(b.bytes))
     return finding.differ_in_structure({a.name, b.name, "one of the pictures is EXR, the other is not"}), Diagnostics{};
-  if (is_exr(a.bytes)) return compare_exr(a, b, limits, finding);
-  const auto left = mesh::decode_image(a.bytes, a.name), right = mesh::decode_image(b.bytes, b.name);
+  if (image_io::is_exr(a.bytes)) return compare_exr(a, b, limits, finding);
+  const auto left = image_io::decode_image(a.bytes, a.name), right = image_io::decode_image(b.bytes, b.name);
   if (!left) return {bad_file(left.error().front().message, "as a picture it cannot be read")};
   if (!right) return {bad_file(right.error().front().message, "as a picture it cannot be read")};
   if (left->width != right->width || left->height != right->height) {
-    const auto size = [](const mesh::Image& image) { return fmt::format("{} x {} pixels", image.width, image.height); };
+    const auto size = [](const image::Image& image) { return fmt::format("{} x {} pixels", image.width, image.height); };
     return finding.differ_in_structure({a.name, b.name, size(*left) + " against " + size(*right)}), Diagnostics{};
   }
   compare_codes(*left, *right, {a, b}, limits, finding);

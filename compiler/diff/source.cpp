@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "compiler/mesh/sieve.h"
+#include "compiler/files/files.h"
 
 namespace orbc::diff {
 namespace {
@@ -14,7 +14,7 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{8} << 30;
 bool is_alphanumeric(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
 
 Result<std::string> read_whole(const std::string& path) {
-  auto bytes = mesh::read_file(path, kMaxBytes);
+  auto bytes = files::read_file(path, kMaxBytes);
   if (bytes) return bytes;
   Diagnostics told = bytes.error();
   for (Diagnostic& d : told) d.code = "diff.cannot-read";
@@ -32,7 +32,7 @@ Result<Source> read_source(const std::string& path) {
 }
 
 Result<std::string> read_beside(const Source& source, std::string_view reference) {
-  const auto path = mesh::referred_path(reference, source.name, source.folder);
+  const auto path = files::referred_path(reference, source.name, source.folder);
   if (path) return read_whole(*path);
   Diagnostics told = path.error();
   for (Diagnostic& d : told) d.code = "diff.cannot-read";

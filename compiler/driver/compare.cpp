@@ -6,6 +6,8 @@
 #include <cstdlib>
 
 #include "compiler/base/check.h"
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 #include "compiler/scene/color.h"
 
 namespace orbc::driver {
@@ -18,7 +20,7 @@ int pixel_difference(const std::uint8_t* p, const std::uint8_t* q) {
 }
 
 // Marks the edges of a picture, widened by one pixel in each direction.
-void mark_edges(const mesh::Image& image, Mask& near_edge) {
+void mark_edges(const image::Image& image, Mask& near_edge) {
   const int w = image.width, h = image.height;
   const auto at = [&](int x, int y) {
     return image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x));
@@ -35,7 +37,7 @@ void mark_edges(const mesh::Image& image, Mask& near_edge) {
             near_edge[static_cast<std::size_t>(v) * static_cast<std::size_t>(w) + static_cast<std::size_t>(u)] = 1;
 }
 
-Mask edges_of_either(const mesh::Image& a, const mesh::Image& b) {
+Mask edges_of_either(const image::Image& a, const image::Image& b) {
   Mask mask(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height), 0);
   mark_edges(a, mask);
   mark_edges(b, mask);
@@ -44,7 +46,7 @@ Mask edges_of_either(const mesh::Image& a, const mesh::Image& b) {
 
 }  // namespace
 
-Comparison compare(const mesh::Image& a, const mesh::Image& b) {
+Comparison compare(const image::Image& a, const image::Image& b) {
   ORBC_CHECK(a.width, ==, b.width);
   ORBC_CHECK(a.height, ==, b.height);
   const Mask near_edge = edges_of_either(a, b);
@@ -62,12 +64,10 @@ Comparison compare(const mesh::Image& a, const mesh::Image& b) {
   return c;
 }
 
-mesh::Image averaged(const mesh::Image& large, int side) {
+image::Image averaged(const image::Image& large, int side) {
   ORBC_CHECK(large.width % side, ==, 0);
   ORBC_CHECK(large.height % side, ==, 0);
-  std::array<double, 256> linear{};
-  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = scene::decode_srgb(static_cast<double>(i) / 255);
-  mesh::Image image{large.width / side, large.height / side, {}};
+  image::Image image{large.width / side, large.height / side, {}};
   image.rgba.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -76,18 +76,17 @@ mesh::Image averaged(const mesh::Image& large, int side) {
         for (int u = 0; u < side; ++u) {
           const std::size_t at =
               4 * (static_cast<std::size_t>(y * side + v) * static_cast<std::size_t>(large.width) + static_cast<std::size_t>(x * side + u));
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += linear[large.rgba[at + c]];
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += image::decode_srgb8(large.rgba[at + c]);
         }
-      for (const double channel : sum)
-        image.rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * scene::encode_srgb(channel / (side * side)))));
+      for (const double channel : sum) image.rgba.push_back(image::encode_srgb8(channel / (side * side)));
       image.rgba.push_back(255);
     }
   return image;
 }
 
-mesh::Image difference_picture(const mesh::Image& a, const mesh::Image& b) {
+image::Image difference_picture(const image::Image& a, const image::Image& b) {
   const Mask near_edge = edges_of_either(a, b);
-  mesh::Image picture{a.width, a.height, std::vector<std::uint8_t>(a.rgba.size(), 255)};
+  image::Image picture{a.width, a.height, std::vector<std::uint8_t>(a.rgba.size(), 255)};
   for (std::size_t i = 0; i < near_edge.size(); ++i) {
     const std::uint8_t* p = a.rgba.data() + 4 * i;
     std::uint8_t* out = picture.rgba.data() + 4 * i;

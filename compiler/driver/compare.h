@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "compiler/image/image.h"
 #include "compiler/mesh/mesh.h"
 
 namespace orbc::driver {
@@ -19,15 +20,15 @@ struct Comparison {
 
 /// An edge is a pixel that differs by more than 2/255 from its left, right, upper or lower neighbour.
 /// In: pictures of equal size.
-[[nodiscard]] Comparison compare(const mesh::Image& a, const mesh::Image& b);
+[[nodiscard]] Comparison compare(const image::Image& a, const image::Image& b);
 
 /// Differences made visible: grey = a darkened copy of `a` where they agree within 2/255, yellow = beyond on an edge, red = beyond off the
 /// edges.
-[[nodiscard]] mesh::Image difference_picture(const mesh::Image& a, const mesh::Image& b);
+[[nodiscard]] image::Image difference_picture(const image::Image& a, const image::Image& b);
 
 /// Averages blocks of side × side pixels in linear light: a picture drawn `side` times larger becomes one of side² samples a pixel, at the
 /// very points that render::sample_points names. In: width and height divisible by side.
-[[nodiscard]] mesh::Image averaged(const mesh::Image& large, int side);
+[[nodiscard]] image::Image averaged(const image::Image& large, int side);
 
 /// value / pixels as a share in [0, 1].
 [[nodiscard]] inline double share(std::uint64_t value, const Comparison& c) {

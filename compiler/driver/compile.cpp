@@ -196,7 +196,7 @@ Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions&
   PaintOptions painting = options.paint;
   painting.highlights = painting.highlights && for_eye;
   painting.lit = purpose == Purpose::product;
-  painting.deep = opened.scene.bake.atlas != scene::AtlasDepth::eight;
+  painting.with_image16 = opened.scene.bake.atlas != scene::AtlasDepth::eight;
   auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), bake::bake_options(opened.scene.bake), painting,
                        executor, progress);
   if (!painted) return painted.error();
@@ -380,7 +380,7 @@ Product product_of(const Opened& opened, const CompileOptions& options, Ready& r
   product.eye = opened.eye;
   product.background = opened.scene.cover.background;
   product.atlas = std::move(ready.painted.atlas.image);
-  product.deep_atlas = std::move(ready.painted.atlas.deep);
+  product.atlas16 = std::move(ready.painted.atlas.image16);
   product.depth = opened.scene.bake.atlas;
   product.masked = place::has_holes(*opened.room);
   product.blended_atlas = ready.painted.baked;

@@ -38,7 +38,7 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
                       const Progress& progress) {
   Painted painted;
   if (!bake::needs_bake(opened.scene, *opened.room)) {
-    auto atlas = bake::make_atlas(exposed(room, opened.scene.exposure), {options.max_side, options.deep});
+    auto atlas = bake::make_atlas(exposed(room, opened.scene.exposure), {options.max_side, options.with_image16});
     if (!atlas) return atlas.error();
     painted.atlas = std::move(*atlas);
     return painted;
@@ -48,7 +48,7 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
   field.options = bake::baked_light_options(opened.scene);
   bake::BakeOptions bake = baking;
   bake.max_side = options.max_side;
-  bake.deep = options.deep;
+  bake.with_image16 = options.with_image16;
   const double denser = density_for(*opened.room);
   bake.coarse *= denser, bake.fine *= denser, bake.texture_fine *= denser;
   if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, field.options.passes = 0;

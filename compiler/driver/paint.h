@@ -10,9 +10,9 @@ namespace orbc::driver {
 struct PaintOptions {
   /// Of glossy surfaces, and what is seen in mirror, glass and metal objects, for this eye; false: diffuse light alone
   bool highlights = true;
-  int max_side = 16384;  ///< pixels of the atlas
-  bool deep = false;     ///< 16 bits a channel as well
-  bool lit = true;       ///< false: only what triangles and vertices become of it, in plain colours
+  int max_side = 16384;       ///< pixels of the atlas
+  bool with_image16 = false;  ///< 16 bits a channel as well
+  bool lit = true;            ///< false: only what triangles and vertices become of it, in plain colours
 };
 
 /// The colours of a cover: the room in its atlas, and what copies have of their own.

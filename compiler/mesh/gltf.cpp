@@ -15,6 +15,9 @@
 #include <set>
 
 #include "compiler/base/elementary.h"
+#include "compiler/files/files.h"
+#include "compiler/image/image.h"
+#include "compiler/image_io/decode.h"
 #include "compiler/mesh/sieve.h"
 #include "compiler/mesh/weld.h"
 
@@ -34,8 +37,8 @@ struct Files {
 
 std::optional<std::string> path_of(Files& files, std::string_view reference) {
   while (reference.substr(0, 2) == "./") reference.remove_prefix(2);
-  auto path = referred_path(reference, files.name, files.folder);
-  const auto wrong = path ? check_file(*path, files.budget) : path.error();
+  auto path = files::referred_path(reference, files.name, files.folder);
+  const auto wrong = path ? files::check_file(*path, files.budget) : path.error();
   if (wrong.empty()) return *path;
   for (const auto& known : files.refused) {
     if (known.message == wrong.front().message) return {};
@@ -52,7 +55,7 @@ tinygltf::FsCallbacks callbacks(Files& files) {
   fs.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path, void* data) {
     auto& own = *static_cast<Files*>(data);
     const auto full = path_of(own, path);
-    auto bytes = full ? read_file(*full, own.budget) : Result<std::string>(Diagnostics{});
+    auto bytes = full ? files::read_file(*full, own.budget) : Result<std::string>(Diagnostics{});
     if (!bytes) return *error = "refused", false;
     own.budget -= bytes->size();
     out->assign(bytes->begin(), bytes->end());
@@ -411,7 +414,7 @@ class Reader {
     return images_[image] = static_cast<int>(mesh_.textures.size()) - 1;
   }
 
-  Result<Image> picture_of(int index) const {
+  Result<image::Image> picture_of(int index) const {
     if (index < 0 || static_cast<std::size_t>(index) >= model_.images.size()) {
       return make_error("mesh.bad-texture", fmt::format("image {} is not there, or of a kind that is not read", index));
     }
@@ -424,10 +427,10 @@ class Reader {
         fail("mesh.bad-gltf", what + " uses a buffer view that is not there");
       const auto size = model_.bufferViews[static_cast<std::size_t>(image.bufferView)].byteLength;
       const auto* bytes = range(image.bufferView, 0, size, what);
-      return decode_image({reinterpret_cast<const char*>(bytes), size}, what, limits);
+      return image_io::decode_image({reinterpret_cast<const char*>(bytes), size}, what, limits);
     }
     const auto found = files_.pictures.find(index);
-    if (found != files_.pictures.end()) return decode_image(found->second, what, limits);
+    if (found != files_.pictures.end()) return image_io::decode_image(found->second, what, limits);
     if (!files_.refused.empty()) return files_.refused.front();
     return make_error("mesh.bad-texture", what + " is empty");
   }

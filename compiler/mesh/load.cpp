@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "compiler/files/files.h"
 #include "compiler/mesh/gltf.h"
 #include "compiler/mesh/sieve.h"
 
@@ -76,11 +77,12 @@ Result<Loaded> load_mesh_bytes(std::string_view bytes, Format format, const std:
 Result<Loaded> load_mesh(const std::string& path, const LoadOptions& options) {
   const auto format = format_of(path);
   if (!format) {
-    if (auto wrong = check_file(path, options.max_file_bytes); !wrong.empty() && wrong.front().code == "mesh.missing-file") return wrong;
+    if (auto wrong = files::check_file(path, options.max_file_bytes); !wrong.empty() && wrong.front().code == "mesh.missing-file")
+      return wrong;
     return make_error("mesh.unknown-format", fmt::format("{}: is not a kind of mesh file that is known here", path),
                       "known are .obj, .ply, .off, .stl, .gltf and .glb");
   }
-  auto bytes = read_file(path, options.max_file_bytes);
+  auto bytes = files::read_file(path, options.max_file_bytes);
   if (!bytes) return std::move(bytes).error();
   auto folder = std::filesystem::path(path).parent_path().string();
   return load_mesh_bytes(*bytes, *format, path, folder.empty() ? "." : folder, options);

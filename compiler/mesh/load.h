@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "compiler/base/result.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image_io/limits.h"
 #include "compiler/mesh/mesh.h"
 
 namespace orbc::mesh {
@@ -13,7 +13,7 @@ namespace orbc::mesh {
 struct LoadOptions {
   std::uint64_t max_file_bytes = std::uint64_t{1} << 30;  ///< of the file and of each kind of thing it refers to, together
   std::uint64_t max_triangles = 20'000'000;               ///< after triangulation and instancing; vertices: three times as many
-  ImageLimits images;
+  image_io::ImageLimits images;
 };
 
 /// A mesh and what its author should know about it.

@@ -5,22 +5,11 @@
 #include <vector>
 
 #include "compiler/geometry/point.h"
+#include "compiler/image/image.h"
 
 namespace orbc::mesh {
 
 using Triangle = std::array<std::uint32_t, 3>;
-
-/// 8-bit RGBA picture, sRGB-encoded, rows from top to bottom.
-struct Image {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;
-};
-
-/// A picture of 16 bits a channel, sRGB-encoded RGB, rows from top to bottom; finer than an Image where banding would show.
-struct DeepImage {
-  int width = 0, height = 0;
-  std::vector<std::uint16_t> rgb;
-};
 
 /// A triangle mesh as it comes from a file or a formula: Euclidean, z up, counter-clockwise seen from outside.
 struct Mesh {
@@ -34,7 +23,7 @@ struct Mesh {
     double cutoff = -1;                          ///< texels of less alpha (0…1) than this are holes; < 0: there are none
   };
   std::vector<Look> looks;  ///< empty when the file has no materials
-  std::vector<Image> textures;
+  std::vector<image::Image> textures;
 };
 
 }  // namespace orbc::mesh

@@ -2,6 +2,7 @@
 #include <string>
 #include <string_view>
 
+#include "compiler/image/image.h"
 #include "compiler/mesh/soup.h"
 
 namespace orbc::mesh {
@@ -15,7 +16,7 @@ struct Sieved {
   std::vector<std::array<float, 2>> corner_uv;  ///< of each corner in order, v from top, where the reader knows no such thing; or empty
   std::vector<std::uint8_t> look;               ///< OBJ: of each face, or empty
   std::vector<Mesh::Look> looks;
-  std::vector<Image> textures;
+  std::vector<image::Image> textures;
   std::vector<std::string> texture_paths;  ///< of each texture
   Diagnostics warnings;
 };
@@ -43,14 +44,5 @@ constexpr double kLargestCoordinate = 1e15;
 
 /// OpenMesh's reader of the format ("obj", "ply", "off", "stl") on a sieved file.
 [[nodiscard]] Result<Soup> read_by_openmesh(const Sieved& sieved, const std::string& format, const std::string& name);
-
-/// The path of a file that a mesh file names: inside `folder` or below, by a relative path without "..".
-/// Diagnostics:  mesh.bad-reference.
-[[nodiscard]] Result<std::string> referred_path(std::string_view reference, const std::string& name, const std::string& folder);
-
-/// The bytes of a regular file. Diagnostics:  mesh.missing-file (nearest name as hint), mesh.not-a-file, mesh.too-big.
-[[nodiscard]] Result<std::string> read_file(const std::string& path, std::uint64_t max_bytes);
-/// Only the checks of read_file.
-[[nodiscard]] Diagnostics check_file(const std::string& path, std::uint64_t max_bytes);
 
 }  // namespace orbc::mesh

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "compiler/files/files.h"
 #include "compiler/mesh/sieve.h"
 #include "compiler/mesh/tokens.h"
 
@@ -160,8 +161,8 @@ class ObjSieve {
   }
 
   void library(const std::string& reference) {
-    auto path = referred_path(reference, name_, folder_);
-    auto bytes = path ? read_file(*path, std::uint64_t{16} << 20) : Result<std::string>(path.error());
+    auto path = files::referred_path(reference, name_, folder_);
+    auto bytes = path ? files::read_file(*path, std::uint64_t{16} << 20) : Result<std::string>(path.error());
     if (!bytes) {
       const auto& reason = bytes.error().front();
       sieved_.warnings.push_back(

@@ -9,8 +9,9 @@
 #include <set>
 #include <utility>
 
+#include "compiler/image/image.h"
+#include "compiler/image_io/decode.h"
 #include "compiler/mesh/examine.h"
-#include "compiler/mesh/image.h"
 #include "compiler/mesh/primitives.h"
 #include "compiler/place/beams.h"
 #include "compiler/place/locate.h"
@@ -25,15 +26,15 @@ using scene::Material;
 using scene::Pattern;
 
 /// Of a mask: its alpha, if it has any, else its brightness (Rec. 709 weights on the codes).
-std::uint8_t opacity_at(const mesh::Image& mask, bool by_alpha, double u, double v) {
+std::uint8_t opacity_at(const image::Image& mask, bool by_alpha, double u, double v) {
   const std::uint8_t* p = texel(mask, u, v);
   return by_alpha ? p[3] : static_cast<std::uint8_t>((2126 * p[0] + 7152 * p[1] + 722 * p[2] + 5000) / 10000);
 }
 
-mesh::Image masked(const mesh::Image* colors, const mesh::Image& mask) {
+image::Image masked(const image::Image* colors, const image::Image& mask) {
   bool by_alpha = false;
   for (std::size_t i = 3; i < mask.rgba.size(); i += 4) by_alpha = by_alpha || mask.rgba[i] < 255;
-  mesh::Image made{std::max(mask.width, colors ? colors->width : 1), std::max(mask.height, colors ? colors->height : 1), {}};
+  image::Image made{std::max(mask.width, colors ? colors->width : 1), std::max(mask.height, colors ? colors->height : 1), {}};
   made.rgba.reserve(4 * static_cast<std::size_t>(made.width) * static_cast<std::size_t>(made.height));
   constexpr std::uint8_t kWhite[] = {255, 255, 255};
   for (int y = 0; y < made.height; ++y)
@@ -53,8 +54,8 @@ struct Builder {
   PlacedRoom placed;
   Diagnostics errors, warnings;
   std::map<std::string, int> texture_of_path;
-  std::map<std::string, mesh::Mesh> mesh_of_path;   ///< by `same_path`
-  std::set<std::string> told;                       ///< warnings that hold for many objects alike, by what they hold for
+  std::map<std::string, mesh::Mesh> mesh_of_path;  ///< by `same_path`
+  std::set<std::string> told;                      ///< warnings that hold for many objects alike, by what they hold for
 
   void fail(Diagnostics diagnostics, const SourceSpan& span) {
     for (Diagnostic& d : located(std::move(diagnostics), span)) errors.push_back(std::move(d));
@@ -76,7 +77,7 @@ struct Builder {
   int texture(const scene::Sourced<std::string>& written) {
     const auto known = texture_of_path.find(written.value);
     if (known != texture_of_path.end()) return known->second;
-    Result<mesh::Image> image = mesh::load_image(path_of(written.value), options.load.images);
+    Result<image::Image> image = image_io::load_image(path_of(written.value), options.load.images);
     int index = -1;
     if (image) {
       index = static_cast<int>(placed.textures.size());
@@ -95,8 +96,8 @@ struct Builder {
     const int colors = material.pattern == Pattern::texture ? texture(material.texture) : -1, holes = texture(material.opacity_mask);
     int index = -1;
     if (holes >= 0) {
-      const mesh::Image* under = colors >= 0 ? &placed.textures[static_cast<std::size_t>(colors)] : nullptr;
-      mesh::Image made = masked(under, placed.textures[static_cast<std::size_t>(holes)]);
+      const image::Image* under = colors >= 0 ? &placed.textures[static_cast<std::size_t>(colors)] : nullptr;
+      image::Image made = masked(under, placed.textures[static_cast<std::size_t>(holes)]);
       index = static_cast<int>(placed.textures.size());
       placed.textures.push_back(std::move(made));
     }

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "compiler/image/image.h"
 #include "compiler/place/placed.h"
 
 namespace orbc::place {
 
 /// The texel (RGBA) of a picture at (u, v), in repeats, v downwards: the nearest one, by one rule for all who ask.
-[[nodiscard]] inline const std::uint8_t* texel(const mesh::Image& image, double u, double v) {
+[[nodiscard]] inline const std::uint8_t* texel(const image::Image& image, double u, double v) {
   const auto index = [](double t, int n) { return std::clamp(static_cast<int>(std::floor((t - std::floor(t)) * n)), 0, n - 1); };
   return image.rgba.data() + 4 * (static_cast<std::size_t>(index(v, image.height)) * static_cast<std::size_t>(image.width) +
                                   static_cast<std::size_t>(index(u, image.width)));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/image/image.h"
 #include "compiler/mesh/mesh.h"
 #include "compiler/scene/color.h"
 
@@ -13,25 +14,25 @@ namespace orbc::render {
 /// first sample.
 struct Film {
   int width = 0, height = 0;
-  std::vector<scene::Color> color;            ///< linear radiance, averaged over the samples
-  std::vector<float> depth;                   ///< path length to what is seen, infinite where nothing is
-  std::vector<std::array<float, 3>> normal;   ///< (x, y, z) in the frame of the room at the point seen
-  std::vector<std::int32_t> object;           ///< index of the part, −1 a wall without panel, −2 the background
+  std::vector<scene::Color> color;           ///< linear radiance, averaged over the samples
+  std::vector<float> depth;                  ///< path length to what is seen, infinite where nothing is
+  std::vector<std::array<float, 3>> normal;  ///< (x, y, z) in the frame of the room at the point seen
+  std::vector<std::int32_t> object;          ///< index of the part, −1 a wall without panel, −2 the background
   std::vector<std::int32_t> bounces;
-  std::vector<float> error;                   ///< standard error of the colour's noisiest channel (`integrator: path`), else empty
-  std::vector<float> weight;                  ///< largest channel of the mirrors' weight
+  std::vector<float> error;   ///< standard error of the colour's noisiest channel (`integrator: path`), else empty
+  std::vector<float> weight;  ///< largest channel of the mirrors' weight
 };
 
 [[nodiscard]] Film make_film(int width, int height);
 
 /// The colour pass as 8-bit sRGB: round(255·encode(exposure·radiance)), clamped.
-[[nodiscard]] mesh::Image to_image(const Film& film, double exposure = 1);
+[[nodiscard]] image::Image to_image(const Film& film, double exposure = 1);
 
 enum class Pass { color, depth, normal, object, bounces, weight };
 /// A pass as a picture to look at: depth and bounces as greys (near is light), normals as (n + 1)/2, objects in distinct colours.
-[[nodiscard]] mesh::Image to_image(const Film& film, Pass pass, double exposure);
+[[nodiscard]] image::Image to_image(const Film& film, Pass pass, double exposure);
 
-/// All passes as an OpenEXR file, 32-bit floats: R G B, Z, N.X N.Y N.Z, object.id, bounces, weight. Same film, same bytes.
-[[nodiscard]] std::string to_exr(const Film& film);
+/// All passes as channels of OpenEXR: R G B (linear), Z, N.X N.Y N.Z, object.id, bounces, weight.
+[[nodiscard]] image::FloatImage to_float_image(const Film& film);
 
 }  // namespace orbc::render

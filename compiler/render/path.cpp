@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "compiler/image/srgb.h"
 #include "compiler/light/guide.h"
 #include "compiler/light/leg.h"
 #include "compiler/light/way.h"
@@ -76,7 +77,7 @@ double noise_of(const Film& film, double exposure) {
   for (std::size_t i = 0; i < film.error.size(); ++i) {
     const Color& c = film.color[i];
     const double value = exposure * largest(c), step = std::min(exposure * static_cast<double>(film.error[i]), 1.0);
-    const double shown = 255 * (scene::encode_srgb(value + step) - scene::encode_srgb(std::max(0.0, value - step))) / 2;
+    const double shown = 255 * (image::encode_srgb(value + step) - image::encode_srgb(std::max(0.0, value - step))) / 2;
     sum += shown * shown;
   }
   return std::sqrt(sum / static_cast<double>(film.error.size()));

@@ -1,11 +1,11 @@
-// Names: CSS Color Module Level 4, § 6.1. Transfer function: IEC 61966-2-1.
+// Names: CSS Color Module Level 4, § 6.1.
 #include "compiler/scene/color.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "compiler/base/elementary.h"
+#include "compiler/image/srgb.h"
 
 namespace orbc::scene {
 namespace {
@@ -15,6 +15,7 @@ struct NamedColor {
   unsigned rrggbb;
 };
 
+// clang-format off
 constexpr std::array<NamedColor, 148> kNamed{{
     {"aliceblue", 0xf0f8ff}, {"antiquewhite", 0xfaebd7}, {"aqua", 0x00ffff}, {"aquamarine", 0x7fffd4}, {"azure", 0xf0ffff},
     {"beige", 0xf5f5dc}, {"bisque", 0xffe4c4}, {"black", 0x000000}, {"blanchedalmond", 0xffebcd}, {"blue", 0x0000ff},
@@ -48,6 +49,7 @@ constexpr std::array<NamedColor, 148> kNamed{{
     {"tomato", 0xff6347}, {"turquoise", 0x40e0d0}, {"violet", 0xee82ee}, {"wheat", 0xf5deb3}, {"white", 0xffffff},
     {"whitesmoke", 0xf5f5f5}, {"yellow", 0xffff00}, {"yellowgreen", 0x9acd32},
 }};
+// clang-format on
 
 int hex_digit(char c) {
   return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
@@ -55,18 +57,9 @@ int hex_digit(char c) {
 
 }  // namespace
 
-double decode_srgb(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : math::pow((encoded + 0.055) / 1.055, 2.4); }
+Color from_srgb(double r, double g, double b) { return {image::decode_srgb(r), image::decode_srgb(g), image::decode_srgb(b)}; }
 
-double encode_srgb(double linear) {
-  const double x = std::clamp(linear, 0.0, 1.0);
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * math::pow(x, 1 / 2.4) - 0.055;
-}
-
-Color from_srgb(double r, double g, double b) { return {decode_srgb(r), decode_srgb(g), decode_srgb(b)}; }
-
-Color from_hex(unsigned rrggbb) {
-  return from_srgb((rrggbb >> 16 & 0xFF) / 255.0, (rrggbb >> 8 & 0xFF) / 255.0, (rrggbb & 0xFF) / 255.0);
-}
+Color from_hex(unsigned rrggbb) { return from_srgb((rrggbb >> 16 & 0xFF) / 255.0, (rrggbb >> 8 & 0xFF) / 255.0, (rrggbb & 0xFF) / 255.0); }
 
 const std::vector<std::string>& color_names() {
   static const std::vector<std::string> names = [] {

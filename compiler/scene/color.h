@@ -20,10 +20,6 @@ struct Color {
 /// Of its channels.
 [[nodiscard]] constexpr double largest(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
-/// IEC 61966-2-1 transfer function, one channel, both ways; values outside [0, 1] are clamped by `encode_srgb` only.
-[[nodiscard]] double decode_srgb(double encoded);
-[[nodiscard]] double encode_srgb(double linear);
-
 /// The colour of three sRGB-encoded channels, 0…1.
 [[nodiscard]] Color from_srgb(double r, double g, double b);
 /// The colour of 0xRRGGBB, sRGB-encoded.

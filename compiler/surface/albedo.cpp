@@ -6,6 +6,8 @@
 
 #include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 #include "compiler/place/texel.h"
 
 namespace orbc::surface {
@@ -49,9 +51,9 @@ double step(double from, double to, double t) {
   return t * t * (3 - 2 * t);
 }
 
-Color texel(const mesh::Image& image, double u, double v) {
+Color texel(const image::Image& image, double u, double v) {
   const std::uint8_t* p = place::texel(image, u, v);
-  return {scene::decode_srgb(p[0] / 255.0), scene::decode_srgb(p[1] / 255.0), scene::decode_srgb(p[2] / 255.0)};
+  return {image::decode_srgb8(p[0]), image::decode_srgb8(p[1]), image::decode_srgb8(p[2])};
 }
 
 bool is_solid(Pattern pattern) { return pattern == Pattern::marble || pattern == Pattern::wood || pattern == Pattern::granite; }

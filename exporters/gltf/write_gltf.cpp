@@ -13,7 +13,7 @@
 
 #include "compiler/base/check.h"
 #include "compiler/base/elementary.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image_io/png.h"
 #include "exporters/gltf/json.h"
 #include "exporters/gltf/layout.h"
 #include "exporters/standpoint.h"
@@ -30,8 +30,8 @@ enum : int { kNearest = 9728, kLinear = 9729, kClampToEdge = 33071 };
 
 /// Where each bufferView and accessor stands in its list; the same rule writes them and refers to them.
 struct Numbering {
-  int normal = -1, uv = -1, color = -1, indices = 1, atlas = -1;   // bufferViews; positions are 0
-  int per_part = 2;                                   // accessors of a part: position, [normal], [uv], [colour], indices
+  int normal = -1, uv = -1, color = -1, indices = 1, atlas = -1;  // bufferViews; positions are 0
+  int per_part = 2;                                               // accessors of a part: position, [normal], [uv], [colour], indices
 };
 
 Numbering numbering(const Layout& layout) {
@@ -215,7 +215,7 @@ void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
     json.object().key("type").string(is_cone(lamp) ? "spot" : "point");
     json.key("color").numbers(floats((1 / whole) * lamp.intensity));
     json.key("intensity").number(kLumensPerWatt * std::numbers::pi * most);
-    if (lamp.kind != scene::LampKind::tube && geometry::length(lamp.across) > 0)   // glTF knows no size; scripts/render_blender.py does
+    if (lamp.kind != scene::LampKind::tube && geometry::length(lamp.across) > 0)  // glTF knows no size; scripts/render_blender.py does
       json.key("extras")
           .object()
           .key("orbc_radius")
@@ -271,7 +271,7 @@ void write_materials(Json& json, const Layout& layout, const Tints& tints, const
     json.key("metallicFactor").number(0).key("roughnessFactor").number(glows ? 1 : 0.5).end_object();
     json.key("extensions").object();
     if (glows) json.key("KHR_materials_unlit").object().end_object();
-    else json.key("KHR_materials_specular").object().key("specularFactor").number(0).end_object();   // matte
+    else json.key("KHR_materials_specular").object().key("specularFactor").number(0).end_object();  // matte
     json.end_object().end_object();
   }
   json.end_array();
@@ -362,8 +362,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
 
   json.key("nodes").array();
   write_camera_node(json, product);
-  for (std::size_t g = 0; !options.nodes_per_copy && g < groups.size(); ++g)
-    write_group_node(json, groups[g], g, options.nodes_per_object);
+  for (std::size_t g = 0; !options.nodes_per_copy && g < groups.size(); ++g) write_group_node(json, groups[g], g, options.nodes_per_object);
   if (drawn && options.nodes_per_copy) {
     json.object().key("name").string("copies").key("children").array();
     for (std::size_t p = 0; p < layout.parts.size(); ++p) json.number(p + 2);
@@ -438,8 +437,8 @@ std::string make_glb(const Product& product, const Layout& layout, const std::st
 
 std::string atlas_png(const Product& product) {
   ORBC_CHECK(static_cast<int>(product.depth), !=, static_cast<int>(scene::AtlasDepth::exr));
-  if (product.deep_atlas.rgb.empty()) return mesh::encode_png(product.atlas);
-  return mesh::encode_deep_png(product.deep_atlas, product.masked ? &product.atlas : nullptr);
+  if (product.atlas16.rgb.empty()) return image_io::encode_png(product.atlas);
+  return image_io::encode_png(product.atlas16, product.masked ? &product.atlas : nullptr);
 }
 
 }  // namespace
@@ -472,7 +471,7 @@ std::vector<driver::File> write_gltf(const Product& product, const GltfOptions& 
 }
 
 std::uint64_t bytes_of(const driver::Amount& amount) {
-  constexpr std::uint64_t kHead = 2500, kCopy = 190;   // of JSON, measured
+  constexpr std::uint64_t kHead = 2500, kCopy = 190;  // of JSON, measured
   const std::uint64_t vertex = amount.normals ? 40 : 28, index = amount.vertices <= 65535 ? 2 : 4;
   return kHead + kCopy * amount.copies + vertex * amount.vertices + 3 * index * amount.triangles;
 }

@@ -9,7 +9,9 @@
 
 #include "compiler/base/check.h"
 #include "compiler/base/elementary.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
+#include "compiler/image_io/exr.h"
+#include "compiler/image_io/png.h"
 #include "exporters/pov/base64.h"
 #include "exporters/standpoint.h"
 #include "exporters/text.h"
@@ -78,14 +80,14 @@ AtlasFiles atlas_files(const driver::Product& product, const std::string& name) 
   if (product.atlas.rgba.empty()) return files;
   const bool exr = product.depth == scene::AtlasDepth::exr;
   files.atlas.name = name + (exr ? "-atlas.exr" : "-atlas.png");
-  if (product.deep_atlas.rgb.empty()) {
-    mesh::Image opaque = product.atlas;
+  if (product.atlas16.rgb.empty()) {
+    image::Image opaque = product.atlas;
     for (std::size_t i = 3; i < opaque.rgba.size(); i += 4) opaque.rgba[i] = 255;
-    files.atlas.bytes = mesh::encode_png(opaque);
+    files.atlas.bytes = image_io::encode_png(opaque);
   } else {
-    files.atlas.bytes = exr ? mesh::encode_exr(product.deep_atlas) : mesh::encode_deep_png(product.deep_atlas);
+    files.atlas.bytes = exr ? image_io::encode_exr(product.atlas16) : image_io::encode_png(product.atlas16);
   }
-  if (product.masked) files.mask = {name + "-mask.png", mesh::encode_mask(product.atlas)};
+  if (product.masked) files.mask = {name + "-mask.png", image_io::encode_alpha(product.atlas)};
   return files;
 }
 

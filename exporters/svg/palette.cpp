@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/base/elementary.h"
+#include "compiler/image/srgb.h"
 
 namespace orbc::svg {
 namespace {
@@ -13,11 +14,9 @@ struct Lab {
   double l = 0, a = 0, b = 0;
 };
 
-double decode(double v) { return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4); }
-double encode(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * math::pow(v, 1 / 2.4) - 0.055; }
-
 Lab lab_of(unsigned rgb) {
-  const double r = decode((rgb >> 16 & 255) / 255.0), g = decode((rgb >> 8 & 255) / 255.0), b = decode((rgb & 255) / 255.0);
+  const auto channel = [&](int shift) { return image::decode_srgb8(static_cast<std::uint8_t>(rgb >> shift & 255)); };
+  const double r = channel(16), g = channel(8), b = channel(0);
   const double l = math::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const double m = math::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const double s = math::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
@@ -34,7 +33,7 @@ std::string hex_of(const Lab& c) {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string hex = "#";
   for (const double v : rgb) {
-    const int code = static_cast<int>(std::lround(255 * std::clamp(encode(std::max(v, 0.0)), 0.0, 1.0)));
+    const int code = image::encode_srgb8(v);
     hex += kDigits[code >> 4];
     hex += kDigits[code & 15];
   }

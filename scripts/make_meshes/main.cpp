@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "compiler/mesh/image.h"
+#include "compiler/image_io/png.h"
 #include "compiler/mesh/primitives.h"
 #include "compiler/mesh/weld.h"
 #include "scripts/make_meshes/sdf.h"
@@ -125,6 +125,6 @@ int main(int argc, char** argv) {
     const auto fine = surface_of(dragon(), {-1.36, -1.6, -0.04}, {1.12, 1.6, 2.2}, 0.0105);
     write(folder + "/dragon.ply", ply(simplified(fine, 28000, "dragon")));
   }
-  if (wants("vase")) write(folder + "/vase.glb", glb(vase(), orbc::mesh::encode_png(vase_paint())));
+  if (wants("vase")) write(folder + "/vase.glb", glb(vase(), orbc::image_io::encode_png(vase_paint())));
   if (wants("knot")) write(folder + "/knot.ply", ply(knot()));
 }

@@ -3,13 +3,13 @@
 
 #include <numbers>
 
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
 #include "compiler/mesh/weld.h"
 
 namespace make_meshes {
 namespace {
 
-using orbc::mesh::Image;
+using orbc::image::Image;
 using orbc::mesh::Mesh;
 using std::numbers::pi;
 

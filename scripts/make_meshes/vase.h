@@ -1,9 +1,10 @@
 #pragma once
+#include "compiler/image/image.h"
 #include "scripts/make_meshes/sdf.h"
 
 namespace make_meshes {
 
 orbc::mesh::Mesh vase();
-orbc::mesh::Image vase_paint();
+orbc::image::Image vase_paint();
 
 }  // namespace make_meshes

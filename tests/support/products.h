@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiler/driver/product.h"
+#include "compiler/image/image.h"
 
 /// Small products made by hand: what exporters are tested on without compiling a scene.
 namespace orbc::test {
@@ -25,7 +26,7 @@ inline place::Eye looking(double yaw, double pitch, double roll, double z) {
   return eye;
 }
 
-inline void add_texel(mesh::Image& image, std::array<std::uint8_t, 3> rgb) {
+inline void add_texel(image::Image& image, std::array<std::uint8_t, 3> rgb) {
   image.rgba.insert(image.rgba.end(), {rgb[0], rgb[1], rgb[2], 255});
   ++image.width;
   image.height = 1;

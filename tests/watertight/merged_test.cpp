@@ -5,6 +5,7 @@
 
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace.h"
+#include "compiler/image/srgb.h"
 #include "view.h"
 
 using namespace orbc;
@@ -12,8 +13,8 @@ using namespace orbc;
 namespace {
 
 struct Difference {
-  double mean = 0;      ///< of all channels, in steps of 1/255
-  double smooth = 0;    ///< the same of means over 5×5 pixels: fine patterns alias, and no panel does
+  double mean = 0;    ///< of all channels, in steps of 1/255
+  double smooth = 0;  ///< the same of means over 5×5 pixels: fine patterns alias, and no panel does
 };
 
 /// Encoded 0 … 255, means over (2r + 1)² pixels.
@@ -27,7 +28,7 @@ std::vector<std::array<double, 3>> smoothed(const std::vector<scene::Color>& pic
       for (int j = std::max(0, y - r); j <= std::min(height - 1, y + r); ++j)
         for (int i = std::max(0, x - r); i <= std::min(width - 1, x + r); ++i, ++count) {
           const scene::Color& c = picture[static_cast<std::size_t>(j * width + i)];
-          mean[0] += 255 * scene::encode_srgb(c.r), mean[1] += 255 * scene::encode_srgb(c.g), mean[2] += 255 * scene::encode_srgb(c.b);
+          mean[0] += 255 * image::encode_srgb(c.r), mean[1] += 255 * image::encode_srgb(c.g), mean[2] += 255 * image::encode_srgb(c.b);
         }
       for (double& channel : mean) channel /= count;
     }
@@ -61,7 +62,7 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
   struct Case {
     const char* path;
     int max_bounces;
-    double error;   ///< mean, steps of 1/255
+    double error;  ///< mean, steps of 1/255
   };
   const Case c = GENERATE(Case{"tests/bench/scale.yaml", 40, 0.8}, Case{"tests/scenes/verify/triangle-unequal.yaml", 40, 0.2});
   auto opened = open(c.path, c.max_bounces);
@@ -78,7 +79,7 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
     const driver::Report& r = compiled->report;
     INFO(c.path << ", min_pixels " << pixels << ": " << r.copies << " copies, " << r.curtains << " curtains, weight " << r.weight_merged
                 << ", mean " << off.mean << ", smooth " << off.smooth);
-    CHECK(r.curtains > 0);   // where paths are cut off, and where copies are left out
+    CHECK(r.curtains > 0);  // where paths are cut off, and where copies are left out
     CHECK((r.weight_merged > 0) == (pixels > 0 && r.copies < copies));
     CHECK(off.smooth < c.error);
     CHECK(off.mean < 2 * c.error);

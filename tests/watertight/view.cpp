@@ -1,12 +1,15 @@
 #include "view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 #include "compiler/cover/unfold.h"
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 #include "compiler/render/draw.h"
 
 namespace orbc::test {
@@ -16,7 +19,7 @@ using geometry::Vector3;
 driver::Opened open_or_fail(const std::string& path) {
   auto opened = driver::open_scene(path);
   if (!opened) FAIL(path + ": " + to_text(opened.error()));
-  opened->scene.cover.background = {};   // no panels where paths are cut off: they would hide holes
+  opened->scene.cover.background = {};  // no panels where paths are cut off: they would hide holes
   return std::move(opened).value();
 }
 
@@ -124,7 +127,7 @@ void for_hits(const driver::Product& product, const Hit& hit) {
 
 std::vector<bool> covered(const driver::Product& product) {
   std::vector<bool> seen(static_cast<std::size_t>(product.eye.width) * static_cast<std::size_t>(product.eye.height));
-  for_hits(product, [&](std::size_t, const Vector3 (&)[3], std::size_t pixel, const Vector3&) { seen[pixel] = true; });
+  for_hits(product, [&](std::size_t, const Vector3(&)[3], std::size_t pixel, const Vector3&) { seen[pixel] = true; });
   return seen;
 }
 
@@ -135,7 +138,7 @@ std::vector<scene::Color> picture(const driver::Product& product) {
     double u = 0, v = 0;
   };
   std::vector<Seen> nearest(static_cast<std::size_t>(product.eye.width) * static_cast<std::size_t>(product.eye.height));
-  for_hits(product, [&](std::size_t triangle, const Vector3 (&corner)[3], std::size_t pixel, const Vector3& d) {
+  for_hits(product, [&](std::size_t triangle, const Vector3(&corner)[3], std::size_t pixel, const Vector3& d) {
     const Vector3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
     const double t = dot(normal, corner[0]) / dot(normal, d), area = dot(normal, normal);
     if (!(t < nearest[pixel].depth) || !(area > 0)) return;
@@ -152,10 +155,10 @@ std::vector<scene::Color> picture(const driver::Product& product) {
     const auto copy = std::upper_bound(product.copies.begin(), product.copies.end(), nearest[i].triangle,
                                        [](std::size_t at, const driver::DrawnCopy& c) { return at < c.first_index; });
     const auto texel = [](double at, int size) { return std::clamp(static_cast<int>(at * size), 0, size - 1); };
-    const mesh::Image& atlas = product.atlas;
+    const image::Image& atlas = product.atlas;
     const std::size_t at = 4 * (static_cast<std::size_t>(texel(nearest[i].v, atlas.height)) * static_cast<std::size_t>(atlas.width) +
                                 static_cast<std::size_t>(texel(nearest[i].u, atlas.width)));
-    const auto linear = [&](std::size_t k) { return scene::decode_srgb(atlas.rgba[at + k] / 255.0); };
+    const auto linear = [&](std::size_t k) { return image::decode_srgb(atlas.rgba[at + k] / 255.0); };
     colors[i] = scene::Color{linear(0), linear(1), linear(2)} * (copy - 1)->tint;
   }
   return colors;

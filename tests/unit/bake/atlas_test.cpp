@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
@@ -17,19 +19,19 @@ namespace {
 
 using Texel = std::array<int, 4>;
 
-Texel texel(const mesh::Image& image, int x, int y) {
+Texel texel(const image::Image& image, int x, int y) {
   Texel t;
   for (int c = 0; c < 4; ++c) t[c] = image.rgba[4 * (static_cast<std::size_t>(y) * image.width + x) + c];
   return t;
 }
 
-Texel nearest(const mesh::Image& image, double u, double v) {
+Texel nearest(const image::Image& image, double u, double v) {
   return texel(image, std::clamp(static_cast<int>(std::floor(u * image.width)), 0, image.width - 1),
                std::clamp(static_cast<int>(std::floor(v * image.height)), 0, image.height - 1));
 }
 
 // The four texels that bilinear lookup blends, wrapped at the borders.
-std::array<Texel, 4> blended(const mesh::Image& image, double u, double v) {
+std::array<Texel, 4> blended(const image::Image& image, double u, double v) {
   const auto wrap = [](int i, int n) { return ((i % n) + n) % n; };
   const int x = static_cast<int>(std::floor(u * image.width - 0.5)), y = static_cast<int>(std::floor(v * image.height - 0.5));
   std::array<Texel, 4> all;
@@ -37,11 +39,11 @@ std::array<Texel, 4> blended(const mesh::Image& image, double u, double v) {
   return all;
 }
 
-int encoded(double linear) { return static_cast<int>(std::lround(255 * scene::encode_srgb(linear))); }
+int encoded(double linear) { return static_cast<int>(std::lround(255 * image::encode_srgb(linear))); }
 
-mesh::Image noise(int width, int height, unsigned seed) {
+image::Image noise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
-  mesh::Image image{width, height, {}};
+  image::Image image{width, height, {}};
   for (int i = 0; i < width * height * 4; ++i) image.rgba.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(random() & 255));
   return image;
 }
@@ -52,7 +54,7 @@ place::PlacedRoom furnished(scene::Scene scene) {
 }
 
 // One triangle of texture 0 over the whole picture.
-place::PlacedRoom textured(place::PartKind kind, const mesh::Image& image, const scene::Color& tint) {
+place::PlacedRoom textured(place::PartKind kind, const image::Image& image, const scene::Color& tint) {
   place::PlacedRoom room;
   room.textures = {image};
   room.looks.push_back({tint, 0, {}});
@@ -118,7 +120,7 @@ TEST_CASE("equal colours share a block, and vertices are doubled only between co
 }
 
 TEST_CASE("a picture is copied texel by texel; texel centres keep their place", "[bake]") {
-  const mesh::Image image = noise(37, 21, 4);
+  const image::Image image = noise(37, 21, 4);
   for (const auto kind : {place::PartKind::object, place::PartKind::floor}) {
     const Atlas atlas = make_atlas(textured(kind, image, {1, 1, 1})).value();
     const auto& uv = atlas.uv[0];
@@ -137,11 +139,11 @@ TEST_CASE("a picture is copied texel by texel; texel centres keep their place", 
 }
 
 TEST_CASE("a tint multiplies a picture in linear light", "[bake]") {
-  const mesh::Image image = noise(8, 8, 5);
+  const image::Image image = noise(8, 8, 5);
   const Atlas atlas = make_atlas(textured(place::PartKind::object, image, {0.5, 1, 0})).value();
   const auto& uv = atlas.uv[0][0];
   const Texel got = nearest(atlas.image, uv[0] + 0.5 / atlas.image.width, uv[1] + 0.5 / atlas.image.height), own = texel(image, 0, 0);
-  CHECK(got[0] == encoded(0.5 * scene::decode_srgb(own[0] / 255.0)));
+  CHECK(got[0] == encoded(0.5 * image::decode_srgb(own[0] / 255.0)));
   CHECK(got[1] == own[1]);
   CHECK(got[2] == 0);
 }
@@ -173,7 +175,7 @@ TEST_CASE("many pictures are packed without overlap, the same way each time", "[
     // The first triangle has the picture: its corners' texels are there.
     const auto& uv = atlas.uv[i];
     const auto& t = atlas.room.parts[i].triangles[0];
-    const mesh::Image& image = room.textures[i];
+    const image::Image& image = room.textures[i];
     const double dx = 0.5 / atlas.image.width, dy = 0.5 / atlas.image.height;
     CHECK(nearest(atlas.image, uv[t[0]][0] + dx, uv[t[0]][1] + dy) == texel(image, 0, 0));
     CHECK(nearest(atlas.image, uv[t[1]][0] - dx, uv[t[1]][1] + dy) == texel(image, image.width - 1, 0));
@@ -190,18 +192,18 @@ TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight"
     room.parts.push_back(part);
   }
   bake::AtlasOptions options;
-  CHECK(make_atlas(room, options).value().deep.rgb.empty());
-  options.deep = true;
+  CHECK(make_atlas(room, options).value().image16.rgb.empty());
+  options.with_image16 = true;
   const Atlas atlas = make_atlas(room, options).value();
-  REQUIRE(atlas.deep.rgb.size() == atlas.image.rgba.size() / 4 * 3);
+  REQUIRE(atlas.image16.rgb.size() == atlas.image.rgba.size() / 4 * 3);
   double worst_8 = 0, worst_16 = 0;
   const auto judge = [&](double u, double v, const scene::Color& wanted) {
     const std::size_t at = static_cast<std::size_t>(v * atlas.image.height) * static_cast<std::size_t>(atlas.image.width) +
                            static_cast<std::size_t>(u * atlas.image.width);
     const double own[] = {wanted.r, wanted.g, wanted.b};
     for (std::size_t c = 0; c < 3; ++c) {
-      worst_8 = std::max(worst_8, std::fabs(scene::decode_srgb(atlas.image.rgba[4 * at + c] / 255.0) - own[c]));
-      worst_16 = std::max(worst_16, std::fabs(scene::decode_srgb(atlas.deep.rgb[3 * at + c] / 65535.0) - own[c]));
+      worst_8 = std::max(worst_8, std::fabs(image::decode_srgb(atlas.image.rgba[4 * at + c] / 255.0) - own[c]));
+      worst_16 = std::max(worst_16, std::fabs(image::decode_srgb(atlas.image16.rgb[3 * at + c] / 65535.0) - own[c]));
     }
   };
   for (std::size_t p = 1; p < room.parts.size(); ++p) judge(atlas.uv[p][0][0], atlas.uv[p][0][1], room.looks[p].color);
@@ -212,14 +214,14 @@ TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight"
       const double s = (x + 0.5) / 16, t = (y + 0.5) / 16;
       judge((1 - s) * uv[0][0] + s * uv[1][0], (1 - t) * uv[0][1] + t * uv[2][1],
             room.looks[0].color *
-                scene::Color{scene::decode_srgb(own[0] / 255.0), scene::decode_srgb(own[1] / 255.0), scene::decode_srgb(own[2] / 255.0)});
+                scene::Color{image::decode_srgb(own[0] / 255.0), image::decode_srgb(own[1] / 255.0), image::decode_srgb(own[2] / 255.0)});
     }
   CHECK(worst_8 > 1e-3);
   CHECK(worst_16 < 2e-5);  // half a step of 1/65535, at most 2.3 of them in linear light
 }
 
 TEST_CASE("holes of a picture are transparent in the atlas, and only there is anything so", "[bake]") {
-  mesh::Image image = noise(20, 12, 3);
+  image::Image image = noise(20, 12, 3);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = static_cast<std::uint8_t>(i * 37 % 256);
   place::PlacedRoom room = textured(place::PartKind::object, image, {1, 1, 1});
   for (const double cutoff : {-1.0, 0.25, 0.5}) {

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 #include "tests/support/lit_room.h"
 
 using namespace orbc;
@@ -32,21 +34,21 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
     for (std::size_t i = count; i-- > 0;) task(i);
   };
   CHECK(bake::bake(l.room, l.field, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
-  CHECK(baked.atlas.deep.rgb.empty());
-  options.deep = true;
+  CHECK(baked.atlas.image16.rgb.empty());
+  options.with_image16 = true;
   const bake::Atlas deep = bake::bake(l.room, l.field, options, serial_executor())->atlas;
   REQUIRE(deep.image.rgba == baked.atlas.image.rgba);
-  REQUIRE(deep.deep.rgb.size() == deep.image.rgba.size() / 4 * 3);
+  REQUIRE(deep.image16.rgb.size() == deep.image.rgba.size() / 4 * 3);
   std::size_t finer = 0;
   double apart = 0;  // in steps of 8 bits: both are the same light, rounded
-  for (std::size_t i = 0; i < deep.deep.rgb.size(); ++i) {
-    apart = std::max(apart, std::fabs(deep.deep.rgb[i] / 257.0 - deep.image.rgba[i / 3 * 4 + i % 3]));
-    finer += deep.deep.rgb[i] % 257 != 0;
+  for (std::size_t i = 0; i < deep.image16.rgb.size(); ++i) {
+    apart = std::max(apart, std::fabs(deep.image16.rgb[i] / 257.0 - deep.image.rgba[i / 3 * 4 + i % 3]));
+    finer += deep.image16.rgb[i] % 257 != 0;
   }
   CHECK(apart <= 0.502);
-  CHECK(finer > deep.deep.rgb.size() / 2);
+  CHECK(finer > deep.image16.rgb.size() / 2);
   int far_off = 0, asked = 0;
-  const mesh::Image& image = baked.atlas.image;
+  const image::Image& image = baked.atlas.image;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
     const place::PlacedMesh& part = l.room.parts[p];
     REQUIRE(baked.atlas.room.parts[p].triangles.size() == part.triangles.size());
@@ -54,7 +56,7 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
       const std::array<double, 3> b{0.3, 0.5, 0.2};
       const scene::Color e = light::irradiance(l.field, surface::light_point(l.room, part, l.field.normals[p], t, b));
       const place::Look& look = l.room.looks[part.look[t]];
-      const double expected = 255 * scene::encode_srgb(light::radiance_out(l.field, look.material, look.color, e).g);
+      const double expected = 255 * image::encode_srgb(light::radiance_out(l.field, look.material, look.color, e).g);
       double u = 0, v = 0;
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t id = baked.atlas.room.parts[p].triangles[t][k];
@@ -66,10 +68,10 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
       for (int k = 0; k < 4; ++k) {
         const int xi = std::min(x0 + k % 2, image.width - 1), yi = std::min(y0 + k / 2, image.height - 1);
         const double w = (k % 2 ? x - x0 : 1 - x + x0) * (k / 2 ? y - y0 : 1 - y + y0);
-        linear += w * scene::decode_srgb(image.rgba[4 * (static_cast<std::size_t>(yi) * image.width + xi) + 1] / 255.0);
+        linear += w * image::decode_srgb(image.rgba[4 * (static_cast<std::size_t>(yi) * image.width + xi) + 1] / 255.0);
       }
       ++asked;
-      far_off += std::fabs(255 * scene::encode_srgb(linear) - expected) > 4;
+      far_off += std::fabs(255 * image::encode_srgb(linear) - expected) > 4;
     }
   }
   CHECK(far_off <= asked / 50);  // shadow borders
@@ -84,7 +86,7 @@ TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the 
   bake::BakeOptions options;
   options.coarse = 6, options.fine = 24;
   const bake::Baked baked = bake::bake(l.room, l.field, options, serial_executor()).value();
-  const mesh::Image& image = baked.atlas.image;
+  const image::Image& image = baked.atlas.image;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
     std::vector<const bake::Box*> box(l.room.parts[p].triangles.size(), nullptr);
     for (std::size_t i = 0; i < baked.blocks[p].size(); ++i) {

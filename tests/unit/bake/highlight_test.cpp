@@ -5,6 +5,8 @@
 #include "compiler/bake/eye_image.h"
 #include "compiler/bake/highlight_bake.h"
 #include "compiler/cover/unfold.h"
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 #include "compiler/light/way.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
@@ -86,7 +88,7 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
   const auto field = light::prepare_light(s.scene, s.room).value();
   REQUIRE(bake::needs_highlights(s.room, field));
   bake::Baked baked = baked_of(s, field);
-  const mesh::Image before = baked.atlas.image;
+  const image::Image before = baked.atlas.image;
   const auto shine = bake::bake_highlights(s.room, field, s.copies, {}, s.eye, {}, baked, serial_executor());
   REQUIRE(shine.own.size() > s.copies.size() / 2);
   CHECK(shine.counts.left_out == 0);
@@ -111,7 +113,7 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
         const int code =
             baked.atlas.image
                 .rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(baked.atlas.image.width) + static_cast<std::size_t>(x))];
-        CHECK(code == Approx(255 * scene::encode_srgb(std::min(1.0, field.exposure * all.r))).margin(2.1));
+        CHECK(code == Approx(255 * image::encode_srgb(std::min(1.0, field.exposure * all.r))).margin(2.1));
         brightest = std::max(brightest, gloss.r);
         ++checked;
       }

@@ -7,7 +7,9 @@
 #include "compiler/diff/compare.h"
 #include "compiler/diff/json.h"
 #include "compiler/diff/tokens.h"
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
+#include "compiler/image_io/exr.h"
+#include "compiler/image_io/png.h"
 
 using namespace orbc;
 using namespace orbc::diff;
@@ -138,33 +140,34 @@ TEST_CASE("accessors of glTF are decoded, wherever they lie", "[diff]") {
 }
 
 TEST_CASE("pictures are compared in steps, and the pixel that differs most is named", "[diff]") {
-  mesh::Image one{3, 2, std::vector<std::uint8_t>(24, 100)}, other = one;
+  image::Image one{3, 2, std::vector<std::uint8_t>(24, 100)}, other = one;
   for (std::size_t i = 3; i < 24; i += 4) one.rgba[i] = other.rgba[i] = 255;
   other.rgba[4 * 4 + 1] = 103;
-  const std::string a = mesh::encode_png(one), b = mesh::encode_png(other);
+  const std::string a = image_io::encode_png(one), b = image_io::encode_png(other);
   const Finding beyond = compare(Form::picture, source("a.png", a), source("b.png", b), {0, 2}).value();
   CHECK(beyond.differs);
   CHECK(beyond.first.at == "a.png, pixel (1, 1)");
   CHECK(beyond.largest_step == 3);
   CHECK(beyond.pixels == 6);
   CHECK_FALSE(compare(Form::picture, source("a.png", a), source("b.png", b), {0, 3}).value().differs);
-  mesh::DeepImage deep{2, 1, {0, 1000, 65535, 3, 4, 5}}, moved = deep;
+  image::Image16 deep{2, 1, {0, 1000, 65535, 3, 4, 5}}, moved = deep;
   moved.rgb[1] = 2000;
   const Finding exr =
-      compare(Form::picture, source("a.exr", mesh::encode_exr(deep)), source("b.exr", mesh::encode_exr(moved)), {0, 3}).value();
+      compare(Form::picture, source("a.exr", image_io::encode_exr(deep)), source("b.exr", image_io::encode_exr(moved)), {0, 3}).value();
   CHECK(exr.differs);
   CHECK(exr.largest_step == Approx(1000 / 257.0).epsilon(0.01));
-  CHECK_FALSE(
-      compare(Form::picture, source("a.exr", mesh::encode_exr(deep)), source("b.exr", mesh::encode_exr(moved)), {0, 4}).value().differs);
-  CHECK(compare(Form::picture, source("a.png", a), source("b.exr", mesh::encode_exr(deep)), {}).value().differs);
+  CHECK_FALSE(compare(Form::picture, source("a.exr", image_io::encode_exr(deep)), source("b.exr", image_io::encode_exr(moved)), {0, 4})
+                  .value()
+                  .differs);
+  CHECK(compare(Form::picture, source("a.png", a), source("b.exr", image_io::encode_exr(deep)), {}).value().differs);
 }
 
 TEST_CASE("pictures that a scene names are looked into, beside it and inlined", "[diff]") {
-  mesh::Image one{1, 1, {1, 2, 3, 255}}, other{1, 1, {1, 2, 5, 255}};
+  image::Image one{1, 1, {1, 2, 3, 255}}, other{1, 1, {1, 2, 5, 255}};
   const auto folder = std::filesystem::path(ORBC_BINARY_DIR) / "diff_test";
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "a-atlas.png", std::ios::binary) << mesh::encode_png(one);
-  std::ofstream(folder / "b-atlas.png", std::ios::binary) << mesh::encode_png(other);
+  std::ofstream(folder / "a-atlas.png", std::ios::binary) << image_io::encode_png(one);
+  std::ofstream(folder / "b-atlas.png", std::ios::binary) << image_io::encode_png(other);
   const Source a = source("a.pov", "image_map { png \"a-atlas.png\" }", folder),
                b = source("b.pov", "image_map { png \"b-atlas.png\" }", folder);
   CHECK(compare(Form::pov, a, b, {0, 1}).value().first.at == "a-atlas.png, pixel (0, 0)");
@@ -176,8 +179,7 @@ TEST_CASE("pictures that a scene names are looked into, beside it and inlined", 
   const std::string inlined = "/* orbc-file scene-atlas.png base64\nAAAA\n*/";
   CHECK(error_of(Form::pov, inlined).find("cannot be read") != std::string::npos);
   // The picture of one white pixel, named before it is carried along: there is no such file.
-  const std::string white =
-      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4//8/AAX+Av4N70a4AAAAAElFTkSuQmCC";
+  const std::string white = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4//8/AAX+Av4N70a4AAAAAElFTkSuQmCC";
   const std::string piped = "image_map { png \"scene-atlas.png\" }\n/* orbc-file scene-atlas.png base64\n" + white + "\n*/";
   CHECK(compare(Form::pov, source("x.pov", piped), source("y.pov", piped), {}).value().pixels == 1);
   CHECK(decode_base64("b3J\niYw==").value() == "orbc");
@@ -202,7 +204,7 @@ TEST_CASE("damaged files are refused with the reason, not read", "[diff]") {
   CHECK(with(R"({"bufferView":0,"componentType":5126,"count":1,"type":5})").find("type") != std::string::npos);
   CHECK(with(R"({"bufferView":0,"componentType":5126,"count":1,"type":"SCALAR","sparse":{}})").find("sparse") != std::string::npos);
   CHECK(error_of(Form::picture, "nothing").find("cannot be read") != std::string::npos);
-  const std::string exr = mesh::encode_exr({2, 1, {0, 1000, 65535, 3, 4, 5}});
+  const std::string exr = image_io::encode_exr({2, 1, {0, 1000, 65535, 3, 4, 5}});
   for (std::size_t length = 4; length < exr.size(); length += 7) CHECK_FALSE(error_of(Form::picture, exr.substr(0, length)).empty());
 }
 

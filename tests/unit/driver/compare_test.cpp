@@ -2,22 +2,24 @@
 
 #include <catch2/catch.hpp>
 
+#include "compiler/image/image.h"
+
 using namespace orbc;
 
 namespace {
 
-mesh::Image plain(int width, int height, std::uint8_t value) {
+image::Image plain(int width, int height, std::uint8_t value) {
   return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4, value)};
 }
 
-void paint(mesh::Image& image, int x, int y, std::uint8_t value) {
+void paint(image::Image& image, int x, int y, std::uint8_t value) {
   for (int c = 0; c < 3; ++c) image.rgba[static_cast<std::size_t>(4 * (y * image.width + x) + c)] = value;
 }
 
 }  // namespace
 
 TEST_CASE("equal pictures agree everywhere", "[driver]") {
-  const mesh::Image a = plain(7, 5, 100);
+  const image::Image a = plain(7, 5, 100);
   const driver::Comparison c = driver::compare(a, a);
   CHECK(c.pixels == 35);
   CHECK(c.within_1 == 35);
@@ -26,7 +28,7 @@ TEST_CASE("equal pictures agree everywhere", "[driver]") {
 }
 
 TEST_CASE("a difference counts by its largest channel", "[driver]") {
-  mesh::Image b = plain(4, 4, 100);
+  image::Image b = plain(4, 4, 100);
   b.rgba[1] = 103;
   const driver::Comparison c = driver::compare(plain(4, 4, 100), b);
   CHECK(c.within_2 == 15);
@@ -36,15 +38,15 @@ TEST_CASE("a difference counts by its largest channel", "[driver]") {
 }
 
 TEST_CASE("a difference beside an edge is told from one in the open", "[driver]") {
-  mesh::Image a = plain(20, 3, 50);
+  image::Image a = plain(20, 3, 50);
   for (int y = 0; y < 3; ++y)
     for (int x = 10; x < 20; ++x) paint(a, x, y, 200);
-  mesh::Image b = a;
-  paint(b, 10, 1, 50);   // the edge has moved by a pixel
+  image::Image b = a;
+  paint(b, 10, 1, 50);  // the edge has moved by a pixel
   driver::Comparison c = driver::compare(a, b);
   CHECK(c.beyond_on_edge == 1);
   CHECK(c.beyond_off_edge == 0);
-  mesh::Image smooth = plain(20, 20, 50), ramp = smooth;   // a slow drift has no edge of its own
+  image::Image smooth = plain(20, 20, 50), ramp = smooth;  // a slow drift has no edge of its own
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 20; ++x) paint(ramp, x, y, static_cast<std::uint8_t>(50 + 2 * x));
   c = driver::compare(smooth, ramp);

@@ -1,14 +1,16 @@
 // Exposure has one meaning in both roads, with light and without.
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "compiler/driver/compile.h"
 #include "compiler/driver/trace.h"
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
 
 using namespace orbc;
 
@@ -27,7 +29,7 @@ driver::Opened opened(const std::string& more) {
 }
 
 int traced(const driver::Opened& scene) {
-  const mesh::Image image = render::to_image(driver::trace(scene, {}, serial_executor()), scene.scene.exposure);
+  const image::Image image = render::to_image(driver::trace(scene, {}, serial_executor()), scene.scene.exposure);
   return image.rgba[4 * (3 * 8 + 4)];
 }
 
@@ -46,9 +48,9 @@ bool exports(const driver::Opened& scene, int expected) {
 }  // namespace
 
 TEST_CASE("exposure means the same in both roads, in scenes without light too", "[driver]") {
-  const double linear = scene::decode_srgb(0xb0 / 255.0);
+  const double linear = image::decode_srgb(0xb0 / 255.0);
   for (const double exposure : {0.5, 1.0, 1.5, 4.0}) {
-    const int expected = static_cast<int>(std::lround(255 * scene::encode_srgb(std::min(1.0, exposure * linear))));
+    const int expected = static_cast<int>(std::lround(255 * image::encode_srgb(std::min(1.0, exposure * linear))));
     const std::string plain = "exposure: " + std::to_string(exposure) + "\n";
     CAPTURE(exposure, expected);
     CHECK(traced(opened(plain)) == expected);

@@ -4,6 +4,7 @@
 #include "compiler/bake/baked_light.h"
 #include "compiler/driver/levels.h"
 #include "compiler/geometry/point.h"
+#include "compiler/image/srgb.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
@@ -67,7 +68,7 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
         const auto x = static_cast<int>(std::lround(u * (box.width - 1))), y = static_cast<int>(std::lround(v * (box.height - 1)));
         const double texel = baked.atlas.image.rgba[4 * static_cast<std::size_t>((box.y + y) * baked.atlas.image.width + box.x + x) + 1];
         ++compared;
-        off += std::fabs(texel - 255 * scene::encode_srgb(shown->g)) > 15;
+        off += std::fabs(texel - 255 * image::encode_srgb(shown->g)) > 15;
       }
   }
   INFO(off << " of " << compared << " are off");

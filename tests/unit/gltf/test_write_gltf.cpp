@@ -1,8 +1,7 @@
 #include <catch2/catch.hpp>
-
 #include <cstring>
 
-#include "compiler/mesh/image.h"
+#include "compiler/image_io/png.h"
 #include "exporters/gltf/json.h"
 #include "exporters/gltf/write_gltf.h"
 #include "tests/support/products.h"
@@ -55,7 +54,7 @@ TEST_CASE("two squares become one primitive with the weights in its vertices", "
   REQUIRE(files.size() == 1);
   CHECK(files[0].name.empty());
   const Glb glb = split(files[0].bytes);
-  const std::string png = mesh::encode_png(product.atlas);
+  const std::string png = image_io::encode_png(product.atlas);
   // positions 8 × 12, uv 8 × 8, colours 8 × 8, indices 12 × 2, atlas
   const std::string total = std::to_string((248 + png.size() + 3) / 4 * 4);
   const double yfov = 2 * std::atan(std::tan(product.eye.fov.radians / 2) / (80.0 / 60));
@@ -82,7 +81,7 @@ TEST_CASE("two squares become one primitive with the weights in its vertices", "
           R"("extras":{"orbc_copies":[)"
           R"({"word":"","bounces":0,"sheet":0,"reversing":false,"weight":[1,1,1],"distance":0,"level":0,"primitive":0,"first_index":0,"index_count":6},)"
           R"({"word":"2 1","bounces":2,"sheet":0,"reversing":false,"weight":[0.81,0.6561,0.5],"distance":1.5,"level":0,"primitive":0,"first_index":6,"index_count":6}]}})");
-  CHECK(at<float>(glb.bin, 0) == 2.0f);        // (2, −0.25, 0) → (2, 0, 0.25)
+  CHECK(at<float>(glb.bin, 0) == 2.0f);  // (2, −0.25, 0) → (2, 0, 0.25)
   CHECK(at<float>(glb.bin, 4) == 0.0f);
   CHECK(at<float>(glb.bin, 8) == 0.25f);
   CHECK(at<float>(glb.bin, 96 + 4 * 8) == 0.75f);
@@ -115,14 +114,14 @@ TEST_CASE("copies that lamps light are matte and white, what glows keeps its wei
   CHECK(contains(glb.json, R"("indices":9,"material":0})"));
   const std::size_t colors = 8 * (12 + 12 + 8);
   CHECK(at<float>(glb.bin, 8 * 12) == -1.0f);
-  CHECK(at<std::uint16_t>(glb.bin, colors) == 65535);               // lit: its lamp brings the weight
-  CHECK(at<std::uint16_t>(glb.bin, colors + 4 * 8) == 53083);       // glowing: 0.81
+  CHECK(at<std::uint16_t>(glb.bin, colors) == 65535);          // lit: its lamp brings the weight
+  CHECK(at<std::uint16_t>(glb.bin, colors + 4 * 8) == 53083);  // glowing: 0.81
 }
 
 TEST_CASE("by object each has a node, a mesh and a material under its name, of all its copies", "[gltf]") {
   driver::Product product = test::two_squares();
   const driver::Product once = product;
-  for (const driver::DrawnCopy& copy : once.copies) {   // the same again, as copies of another object
+  for (const driver::DrawnCopy& copy : once.copies) {  // the same again, as copies of another object
     const auto first = static_cast<std::ptrdiff_t>(copy.first_vertex);
     const auto cut = [first](const auto& all) { return std::vector(all.begin() + first, all.begin() + first + 4); };
     test::add_copy(product, cut(once.positions), cut(once.uv), {0, 1, 2, 0, 2, 3});
@@ -134,8 +133,12 @@ TEST_CASE("by object each has a node, a mesh and a material under its name, of a
   CHECK(contains(json, R"("nodes":[0,1,2]}])"));
   CHECK(contains(json, R"({"name":"floor","mesh":0,"extras":{"orbc_object":"floor","orbc_copies":2}},)"));
   CHECK(contains(json, R"({"name":"\"statue\" 2","mesh":1,"extras":{"orbc_object":"\"statue\" 2","orbc_copies":2}})"));
-  CHECK(contains(json, R"("meshes":[{"name":"floor","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"indices":3,"material":0}]},)"));
-  CHECK(contains(json, R"({"name":"\"statue\" 2","primitives":[{"attributes":{"POSITION":4,"TEXCOORD_0":5,"COLOR_0":6},"indices":7,"material":1}]}])"));
+  CHECK(contains(
+      json,
+      R"("meshes":[{"name":"floor","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,"COLOR_0":2},"indices":3,"material":0}]},)"));
+  CHECK(contains(
+      json,
+      R"({"name":"\"statue\" 2","primitives":[{"attributes":{"POSITION":4,"TEXCOORD_0":5,"COLOR_0":6},"indices":7,"material":1}]}])"));
   CHECK(contains(json, R"("materials":[{"name":"floor",)"));
   CHECK(contains(json, R"({"name":"\"statue\" 2","doubleSided":true,)"));
   CHECK(contains(json, R"("object":"floor","primitive":0,"first_index":6,"index_count":6})"));
@@ -148,12 +151,12 @@ TEST_CASE("an atlas with holes is a mask at one half, and one of sixteen bits is
   product.atlas.rgba[3] = 0;
   const Glb glb = split(gltf::write_gltf(product)[0].bytes);
   CHECK(contains(glb.json, R"("alphaMode":"MASK","alphaCutoff":0.5)"));
-  CHECK(mesh::decode_png(glb.bin.substr(248)).value().rgba[3] == 0);
+  CHECK(image_io::decode_png(glb.bin.substr(248), "PNG").value().rgba[3] == 0);
   product.depth = scene::AtlasDepth::sixteen;
-  product.deep_atlas = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
+  product.atlas16 = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
   const std::string png = split(gltf::write_gltf(product)[0].bytes).bin.substr(248);
   CHECK(png[24] == 16);
-  CHECK(mesh::decode_png(png).value().rgba == std::vector<std::uint8_t>{255, 128, 0, 0, 10, 20, 30, 255});
+  CHECK(image_io::decode_png(png, "PNG").value().rgba == std::vector<std::uint8_t>{255, 128, 0, 0, 10, 20, 30, 255});
 }
 
 TEST_CASE("indices need four bytes from 65536 vertices on", "[gltf]") {

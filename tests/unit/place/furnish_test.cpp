@@ -6,7 +6,8 @@
 #include <fstream>
 #include <set>
 
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
+#include "compiler/image_io/png.h"
 #include "compiler/place/wrap.h"
 #include "rooms.h"
 
@@ -31,8 +32,8 @@ struct Folder {
   std::string path = ORBC_BINARY_DIR "/furnish_test";
   Folder() {
     std::filesystem::create_directories(path);
-    mesh::Image image{8, 4, std::vector<std::uint8_t>(8 * 4 * 4, 200)};
-    std::ofstream(path + "/tile.png", std::ios::binary) << mesh::encode_png(image);
+    image::Image image{8, 4, std::vector<std::uint8_t>(8 * 4 * 4, 200)};
+    std::ofstream(path + "/tile.png", std::ios::binary) << image_io::encode_png(image);
     std::ofstream(path + "/tetra.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
     std::ofstream(path + "/broken.obj") << "v 0 0 0\nf 1 2 3\n";
   }

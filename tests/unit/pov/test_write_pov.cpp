@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
-
 #include <cctype>
 
-#include "compiler/mesh/image.h"
+#include "compiler/image/image.h"
+#include "compiler/image_io/png.h"
 #include "exporters/pov/base64.h"
 #include "exporters/pov/write_pov.h"
 #include "tests/support/products.h"
@@ -87,7 +87,7 @@ uv_mapping
 texture { pigment { OrbcAtlas } finish { emission rgb <0.81,0.6561,0.5> ambient 0 diffuse 0 } }
 }
 )");
-  const Result<mesh::Image> atlas = mesh::decode_png(files[1].bytes);
+  const Result<image::Image> atlas = mesh::decode_png(files[1].bytes);
   REQUIRE(atlas.has_value());
   CHECK(atlas->rgba == test::two_squares().atlas.rgba);
 }
@@ -95,7 +95,7 @@ texture { pigment { OrbcAtlas } finish { emission rgb <0.81,0.6561,0.5> ambient 
 TEST_CASE("a scene for a pipe is one file that carries its atlas", "[pov]") {
   const std::vector<driver::File> files = pov::write_pov(test::two_squares(), {.name = "squares", .inline_atlas = true});
   REQUIRE(files.size() == 1);
-  const std::string png = mesh::encode_png(test::two_squares().atlas);
+  const std::string png = image_io::encode_png(test::two_squares().atlas);
   CHECK(contains(files[0].bytes, "/* orbc-file squares-atlas.png base64\n" + base64(png) + "*/\n"));
   CHECK(contains(files[0].bytes, "image_map { png \"squares-atlas.png\" }"));
 }
@@ -132,8 +132,8 @@ TEST_CASE("the flat view puts the camera where the eye stands in the disk chart"
   const std::string text = pov::write_pov(product)[0].bytes;
   CHECK(contains(text, fmt::format(",{},0.5>", std::tanh(0.5))));
   const std::size_t at = text.find("direction <") + 11;
-  CHECK(std::abs(std::stod(text.substr(at))) < 1e-15);                       // turned by 90°: from +x …
-  CHECK(std::stod(text.substr(text.find(',', at) + 1)) == Approx(1));        // … to +y
+  CHECK(std::abs(std::stod(text.substr(at))) < 1e-15);                 // turned by 90°: from +x …
+  CHECK(std::stod(text.substr(text.find(',', at) + 1)) == Approx(1));  // … to +y
 }
 
 TEST_CASE("copies without triangles are mentioned, not drawn", "[pov]") {
@@ -190,7 +190,8 @@ TEST_CASE("an atlas with holes has a mask beside it, one of more bits its own fi
   REQUIRE(masked.size() == 3);
   CHECK(contains(masked[0].bytes,
                  "image_pattern { png \"leaf-mask.png\" } pigment_map { [0.5 rgbt 1] [0.5 image_map { png \"leaf-atlas.png\" }] }"));
-  const mesh::Image mask = mesh::decode_png(masked[1].bytes).value(), atlas = mesh::decode_png(masked[2].bytes).value();
+  const image::Image mask = image_io::decode_png(masked[1].bytes, "PNG").value(),
+                     atlas = image_io::decode_png(masked[2].bytes, "PNG").value();
   CHECK((mask.rgba[0] == 0 && mask.rgba[4] == 255));
   CHECK((atlas.rgba[0] == 255 && atlas.rgba[3] == 255));
   const std::string piped = pov::write_pov(product, {.name = "leaf", .inline_atlas = true})[0].bytes;
@@ -198,11 +199,11 @@ TEST_CASE("an atlas with holes has a mask beside it, one of more bits its own fi
 
   product.masked = false;
   product.depth = scene::AtlasDepth::sixteen;
-  product.deep_atlas = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
+  product.atlas16 = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
   const auto deep = pov::write_pov(product, {.name = "deep"});
   CHECK(deep[1].name == "deep-atlas.png");
-  CHECK(deep[1].bytes[24] == 16);   // bit depth in IHDR
-  CHECK(mesh::decode_png(deep[1].bytes).value().rgba == std::vector<std::uint8_t>{255, 128, 0, 255, 10, 20, 30, 255});
+  CHECK(deep[1].bytes[24] == 16);  // bit depth in IHDR
+  CHECK(image_io::decode_png(deep[1].bytes, "PNG").value().rgba == std::vector<std::uint8_t>{255, 128, 0, 255, 10, 20, 30, 255});
   product.depth = scene::AtlasDepth::exr;
   const auto exr = pov::write_pov(product, {.name = "deep"});
   CHECK(exr[1].name == "deep-atlas.exr");

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <set>
 
+#include "compiler/image/image.h"
+#include "compiler/image/srgb.h"
+#include "compiler/image_io/exr.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
-#include "compiler/room/realise.h"
 #include "compiler/render/shade.h"
+#include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
 #include "tests/support/threads.h"
 
@@ -170,7 +173,7 @@ TEST_CASE("seen through mirrors a glowing floor has its radiance times the weigh
     const render::Film film = render::draw(scene, eye_in(room), options, serial_executor());
     int bounced = 0;
     for (std::size_t i = 0; i < film.color.size(); ++i) {
-      if (film.object[i] == -2) continue;   // cut off
+      if (film.object[i] == -2) continue;  // cut off
       CHECK(film.color[i].b == Approx(std::pow(rho, film.bounces[i])));
       bounced += film.bounces[i] > 0;
     }
@@ -190,7 +193,7 @@ TEST_CASE("the film does not depend on the order in which tiles are drawn", "[re
                      b = render::draw(scene, eye_in(room), options, backwards);
   for (std::size_t i = 0; i < a.color.size(); ++i)
     CHECK((a.color[i].r == b.color[i].r && a.color[i].b == b.color[i].b && a.depth[i] == b.depth[i]));
-  CHECK(render::to_exr(a) == render::to_exr(b));
+  CHECK(image_io::encode_exr(render::to_float_image(a)) == image_io::encode_exr(render::to_float_image(b)));
 }
 
 TEST_CASE("bytes of a picture are the rounded encoded values, whichever way they are found", "[render]") {
@@ -198,16 +201,16 @@ TEST_CASE("bytes of a picture are the rounded encoded values, whichever way they
   std::uint64_t state = 5;
   for (std::size_t i = 0; i < film.color.size(); ++i) {
     const auto draw = [&] { return static_cast<double>((state = state * 6364136223846793005u + 1442695040888963407u) >> 11) * 0x1p-53; };
-    const double step = scene::decode_srgb((static_cast<double>(i % 256) + 0.5) / 255);  // where bytes change
+    const double step = image::decode_srgb((static_cast<double>(i % 256) + 0.5) / 255);  // where bytes change
     film.color[i] = {draw() * 1.2 - 0.1, draw() * draw() * 0.01,
                      i < 512    ? step
                      : i < 1024 ? std::nextafter(step, 0.0)
                      : i < 1536 ? std::nextafter(step, 1.0)
                                 : draw()};
   }
-  const mesh::Image image = render::to_image(film, 1);
+  const image::Image image = render::to_image(film, 1);
   int different = 0;
-  const auto byte = [](double v) { return std::lround(255 * scene::encode_srgb(v)); };
+  const auto byte = [](double v) { return std::lround(255 * image::encode_srgb(v)); };
   for (std::size_t i = 0; i < film.color.size(); ++i)
     different += image.rgba[4 * i] != byte(film.color[i].r) || image.rgba[4 * i + 1] != byte(film.color[i].g) ||
                  image.rgba[4 * i + 2] != byte(film.color[i].b) || image.rgba[4 * i + 3] != 255;
@@ -225,7 +228,7 @@ TEST_CASE("threads prepare and draw what one alone does", "[render][threads]") {
       if (lamp) options.light = &light;
       place::Eye eye = eye_in(room);
       eye.width = 48, eye.height = 40;
-      return render::to_exr(render::draw(scene, eye, options, executor));
+      return image_io::encode_exr(render::to_float_image(render::draw(scene, eye, options, executor)));
     };
     const std::string alone = film(serial_executor());
     for (const int count : {2, 5}) CHECK(film(testing::threads(count)) == alone);

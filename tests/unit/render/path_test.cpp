@@ -6,6 +6,7 @@
 
 #include "compiler/bake/baked_light.h"
 #include "compiler/geometry/chart.h"
+#include "compiler/image/srgb.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/render/shade.h"
@@ -335,7 +336,7 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
         const scene::Color passed = render::passed_on(l->room, l->field, at, chance, 3000);
         const scene::Color truth = light::radiance_out(l->field, l->room.looks[static_cast<std::size_t>(point.look)].material,
                                                        {0.7, 0.7, 0.7}, light::irradiance(l->field, at) + std::numbers::pi * passed);
-        const double off = 255 * (scene::encode_srgb(shown->r) - scene::encode_srgb(truth.r));
+        const double off = 255 * (image::encode_srgb(shown->r) - image::encode_srgb(truth.r));
         worst = std::max(worst, std::fabs(off));
         INFO("at height " << above << ", side " << side << ": baked " << shown->r << ", by paths " << truth.r);
         CHECK(std::fabs(off) < 8);

@@ -1,6 +1,7 @@
 // Holes by the alpha of a texture: a ray goes through them, whoever asks.
 #include <catch2/catch.hpp>
 
+#include "compiler/image/image.h"
 #include "compiler/place/texel.h"
 #include "tests/unit/trace/support.h"
 
@@ -17,7 +18,7 @@ place::PlacedRoom holed(room::Room room, double size, Random& random) {
   place::PlacedMesh& part = placed.parts[0];
   for (std::size_t i = 0; i < part.floor.size(); ++i)
     part.uv.push_back({static_cast<float>(random.unit()), static_cast<float>(random.unit())});
-  mesh::Image image{8, 8, {}};
+  image::Image image{8, 8, {}};
   for (int i = 0; i < 64; ++i) image.rgba.insert(image.rgba.end(), {9, 9, 9, static_cast<std::uint8_t>(random.bits() & 255)});
   placed.textures.push_back(image);
   placed.looks.push_back({{1, 1, 1}, 0, {}, 0.5});

@@ -1,15 +1,19 @@
-#include "compiler/mesh/image.h"
-
 #include <jpeglib.h>
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/unit/mesh/files.h"
+#include "compiler/image_io/decode.h"
+#include "compiler/image_io/exr.h"
+#include "compiler/image_io/jpeg.h"
+#include "compiler/image_io/png.h"
+#include "tests/support/folder.h"
 
 using namespace orbc;
-using namespace orbc::mesh;
-using namespace orbc::mesh::test;
+using namespace orbc::image_io;
+using orbc::image::Image;
+using orbc::image::Image16;
+using orbc::test::Folder;
 
 namespace {
 
@@ -48,12 +52,12 @@ std::string code(const Result<Image>& result) { return result ? "fine" : result.
 
 }  // namespace
 
-TEST_CASE("a picture comes back from PNG as it was, and gives the same bytes every time", "[mesh]") {
+TEST_CASE("a picture comes back from PNG as it was, and gives the same bytes every time", "[image_io]") {
   for (const auto& image : {noise(17, 5, true), noise(17, 5, false), noise(1, 1, true), noise(300, 200, false)}) {
     const auto bytes = encode_png(image);
     CHECK(bytes == encode_png(image));
     CHECK(bytes.find("tIME") == bytes.npos);
-    const auto back = decode_png(bytes);
+    const auto back = decode_png(bytes, "PNG");
     REQUIRE(back);
     CHECK(back->width == image.width);
     CHECK(back->height == image.height);
@@ -61,7 +65,7 @@ TEST_CASE("a picture comes back from PNG as it was, and gives the same bytes eve
   }
 }
 
-TEST_CASE("a JPEG is read as RGB, whatever its name", "[mesh]") {
+TEST_CASE("a JPEG is read as RGB, whatever its name", "[image_io]") {
   const Folder folder("jpeg");
   const auto image = load_image(folder.write("a.png", jpeg(20, 10)));
   REQUIRE(image);
@@ -73,7 +77,7 @@ TEST_CASE("a JPEG is read as RGB, whatever its name", "[mesh]") {
   CHECK(image->rgba[3] == 255);
 }
 
-TEST_CASE("a JPEG that is written shows the picture, without its alpha, and has the same bytes every time", "[mesh]") {
+TEST_CASE("a JPEG that is written shows the picture, without its alpha, and has the same bytes every time", "[image_io]") {
   Image picture{65, 40, {}};
   for (int i = 0; i < picture.width * picture.height; ++i)
     picture.rgba.insert(picture.rgba.end(), {static_cast<std::uint8_t>(i % 65 * 3), static_cast<std::uint8_t>(i / 65 * 6), 90, 0});
@@ -91,7 +95,7 @@ TEST_CASE("a JPEG that is written shows the picture, without its alpha, and has 
   CHECK(worst <= 6);
 }
 
-TEST_CASE("pictures that are too large, broken or none are refused", "[mesh]") {
+TEST_CASE("pictures that are too large, broken or none are refused", "[image_io]") {
   const Folder folder("pictures");
   CHECK(code(load_image(folder("gone.png"))) == "mesh.missing-file");
   CHECK(code(load_image(folder.path())) == "mesh.not-a-file");
@@ -103,7 +107,7 @@ TEST_CASE("pictures that are too large, broken or none are refused", "[mesh]") {
   CHECK(code(decode_image(jpeg(40, 40), "x", {.max_side = 39})) == "mesh.image-too-big");
 }
 
-TEST_CASE("cut off and bent pictures are a picture or a diagnostic", "[mesh]") {
+TEST_CASE("cut off and bent pictures are a picture or a diagnostic", "[image_io]") {
   std::mt19937 random(1);
   for (const auto& whole : {encode_png(noise(20, 20, false)), jpeg(40, 30)}) {
     for (std::size_t length = 0; length < whole.size(); ++length) CHECK(code(decode_image(whole.substr(0, length), "x")) != "");
@@ -115,4 +119,29 @@ TEST_CASE("cut off and bent pictures are a picture or a diagnostic", "[mesh]") {
         REQUIRE(image->rgba.size() == std::size_t{4} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height));
     }
   }
+}
+
+TEST_CASE("a picture of 16 bits is written with all of them, and comes back from EXR as linear light", "[image_io]") {
+  const Image16 picture{2, 1, {0, 1000, 65535, 3, 4, 5}};
+  const std::string png = encode_png(picture);
+  CHECK(png[24] == 16);  // bit depth in IHDR
+  CHECK(decode_image(png, "a PNG")->rgba == std::vector<std::uint8_t>{0, 4, 255, 255, 0, 0, 0, 255});
+  const auto exr = decode_exr(encode_exr(picture));
+  REQUIRE(exr);
+  CHECK(exr->channels.at("R")[0] == 0);
+  CHECK(exr->channels.at("B")[0] == 1);
+  CHECK(exr->channels.at("G")[0] == Approx(1000 / 65535.0 / 12.92).epsilon(1e-3));
+}
+
+TEST_CASE("channels of floats come back from EXR as they were, and damaged files are refused", "[image_io]") {
+  const orbc::image::FloatImage picture{2, 2, {{"Z", {1, 2.5f, -3, 1e30f}}, {"object.id", {-2, 0, 1, 7}}}};
+  const std::string bytes = encode_exr(picture);
+  CHECK(is_exr(bytes));
+  CHECK(bytes == encode_exr(picture));
+  const auto back = decode_exr(bytes);
+  REQUIRE(back);
+  CHECK(back->width == 2);
+  CHECK(back->channels == picture.channels);
+  CHECK_FALSE(decode_exr(bytes.substr(0, bytes.size() / 2)));
+  CHECK_FALSE(decode_exr("hello"));
 }

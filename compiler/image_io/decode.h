@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "compiler/base/result.h"
+#include "compiler/image/image.h"
+#include "compiler/image_io/limits.h"
+
+namespace orbc::image_io {
+
+/// Reads a PNG or JPEG file as 8-bit sRGB RGBA. The format is recognised by the first bytes, whatever the file is called.
+/// Makes:        grey becomes RGB, a missing alpha 255; a PNG of another gamma or of 16 bits is converted to sRGB.
+/// Diagnostics:  mesh.missing-file, mesh.not-a-file, mesh.image-too-big, mesh.bad-image.
+[[nodiscard]] Result<image::Image> load_image(const std::string& path, const ImageLimits& limits = {});
+
+/// Decodes a PNG or JPEG picture in memory, as load_image does; `name` is what diagnostics call it.
+/// Diagnostics:  mesh.image-too-big, mesh.bad-image.
+[[nodiscard]] Result<image::Image> decode_image(std::string_view bytes, const std::string& name, const ImageLimits& limits = {});
+
+}  // namespace orbc::image_io
