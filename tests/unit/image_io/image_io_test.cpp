@@ -1,3 +1,4 @@
+#include <cstdio>  // jpeglib.h needs it
 #include <jpeglib.h>
 
 #include <catch2/catch.hpp>

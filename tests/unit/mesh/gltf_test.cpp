@@ -124,7 +124,7 @@ TEST_CASE("sparse accessors of a glTF are applied and checked", "[mesh]") {
 
 TEST_CASE("a textured glTF gives uv, colour and picture, embedded, by data URI and beside it", "[mesh]") {
   const Folder folder("textured");
-  const Image picture{2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, 128}};
+  const image::Image picture{2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, 128}};
   const auto png = image_io::encode_png(picture);
   std::string data = tetra_data();
   for (int i = 0; i < 4; ++i) put(data, static_cast<float>(i) / 4), put(data, 0.5f);

@@ -72,7 +72,7 @@ TEST_CASE("an OBJ may have comments, continued lines, normals, groups and double
 
 TEST_CASE("an OBJ takes colours and pictures from its MTL", "[mesh]") {
   const Folder folder("mtl");
-  folder.write("pic/red.png", image_io::encode_png({2, 1, {255, 0, 0, 255, 0, 0, 255, 255}}));
+  folder.write("pic/red.png", image_io::encode_png(image::Image{2, 1, {255, 0, 0, 255, 0, 0, 255, 255}}));
   folder.write("a.mtl", "newmtl one\nKd 0.1 0.2 0.3\nnewmtl two\nmap_Kd -s 1 1 1 pic/red.png\nnewmtl three\nmap_Kd gone.png\n");
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
   const auto loaded = load_mesh(folder.write(
@@ -118,7 +118,7 @@ TEST_CASE("polygons are cut into triangles inside of them, also when they have i
 
 TEST_CASE("a PLY may have per-corner uv, a picture, strips of triangles and things nobody knows", "[mesh]") {
   const Folder folder("ply");
-  folder.write("red.png", image_io::encode_png({1, 1, {255, 0, 0, 255}}));
+  folder.write("red.png", image_io::encode_png(image::Image{1, 1, {255, 0, 0, 255}}));
   const auto wedge = load_mesh(
       folder.write("wedge.ply",
                    "ply\nformat ascii 1.0\ncomment TextureFile red.png\nelement vertex 3\nproperty float x\nproperty float y\n"
