@@ -31,8 +31,11 @@ function(orbc_tests name folder)
   set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 1200)
 endfunction()
 
-foreach(room base geometry image image_io notation scene room mesh place cover bend trace surface light bake render driver diff)
+foreach(room base geometry image image_io notation scene room mesh mesh_io diff)
   orbc_tests(test_${room} tests/unit/${room} USES ${room})
+endforeach()
+foreach(room place cover bend trace surface light bake render driver)  # their scenes name meshes and pictures
+  orbc_tests(test_${room} tests/unit/${room} USES ${room} mesh_io)
 endforeach()
 foreach(room cover bend trace light)
   orbc_tests(property_${room} tests/property/${room} USES ${room})

@@ -14,7 +14,7 @@
 
 #include "compiler/geometry/chart.h"
 #include "compiler/mesh/decimate.h"
-#include "compiler/mesh/nearest.h"
+#include "compiler/mesh/closest_point_tree.h"
 #include "compiler/mesh/weld.h"
 
 namespace orbc::driver {
@@ -111,7 +111,7 @@ class Divider {
 
 /// Edges of one triangle, or between looks, by their ends' first vertices.
 std::vector<std::array<std::uint32_t, 2>> borders_of(const PlacedMesh& part, const std::vector<Vector3>& at) {
-  const auto weld = mesh::welded(at);
+  const auto weld = mesh::weld_positions(at);
   struct Side {
     std::uint32_t a, b;
     std::uint16_t look;
@@ -143,7 +143,7 @@ Pieces pieces_of(const PlacedMesh& part, const std::vector<Vector3>& at, const C
 
 /// The largest distance of a corner of `from` to the other, at least `worst`. A corner is no farther than the one before and the way
 /// between.
-double farthest(const mesh::Mesh& from, const mesh::Nearest& to, double worst) {
+double farthest(const mesh::Mesh& from, const mesh::ClosestPointTree& to, double worst) {
   double last = 1e9;
   const Vector3* before = nullptr;
   for (const Vector3& p : from.positions) {
@@ -155,10 +155,10 @@ double farthest(const mesh::Mesh& from, const mesh::Nearest& to, double worst) {
   return worst;
 }
 
-double largest_distance(const mesh::Mesh& a, const mesh::Nearest& to_a, const mesh::Mesh& b) {
+double largest_distance(const mesh::Mesh& a, const mesh::ClosestPointTree& to_a, const mesh::Mesh& b) {
   if (a.triangles.empty() && b.triangles.empty()) return 0;
   if (a.triangles.empty() || b.triangles.empty()) return kWhole;
-  return farthest(b, to_a, farthest(a, mesh::Nearest(b), 0));
+  return farthest(b, to_a, farthest(a, mesh::ClosestPointTree(b), 0));
 }
 
 bool is_heavy(const PlacedMesh& part) {
@@ -175,7 +175,7 @@ PlacedMesh stand_in(const PlacedMesh& part, const mesh::Decimated& coarse, const
     if (!part.pattern_position.empty()) mesh.pattern_position.push_back(part.pattern_position[v]);
   }
   mesh.triangles = coarse.mesh.triangles;
-  for (const std::uint8_t look : coarse.mesh.material) mesh.look.push_back(looks[look]);
+  for (const std::uint16_t look : coarse.mesh.triangle_material) mesh.look.push_back(looks[look]);
   return mesh;
 }
 
@@ -189,7 +189,7 @@ std::vector<Level> levels_of(Space space, const PlacedMesh& part, const Executor
   std::sort(looks.begin(), looks.end());
   looks.erase(std::unique(looks.begin(), looks.end()), looks.end());
   for (const std::uint16_t look : part.look)
-    flat.material.push_back(static_cast<std::uint8_t>(std::lower_bound(looks.begin(), looks.end(), look) - looks.begin()));
+    flat.triangle_material.push_back(static_cast<std::uint16_t>(std::lower_bound(looks.begin(), looks.end(), look) - looks.begin()));
   std::vector<std::size_t> numbers;
   for (double n = kStep * static_cast<double>(part.triangles.size()); n >= kLightest; n *= kStep)
     numbers.push_back(static_cast<std::size_t>(n));
@@ -199,7 +199,7 @@ std::vector<Level> levels_of(Space space, const PlacedMesh& part, const Executor
   const double h = std::min(std::max(chart.reach(), 1e-9) / 8, 4 * std::sqrt(area / static_cast<double>(flat.triangles.size()))) + 1e-12;
   std::vector<mesh::Decimated> chain;
   Pieces given;
-  std::optional<mesh::Nearest> to_surface, to_lines;
+  std::optional<mesh::ClosestPointTree> to_surface, to_lines;
   executor(2, [&](std::size_t task) {
     if (task == 0) {
       chain = mesh::decimate_in_steps(flat, numbers);

@@ -5,6 +5,7 @@
 
 #include "compiler/light/lamp.h"
 #include "compiler/light/shade.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/read.h"
@@ -34,7 +35,7 @@ Result<Opened> open_scene(const std::string& path, const scene::Overrides& overr
   opened.expected_background = opened.scene.cover.background_expected;
   const auto room = room::realise(opened.scene.orbifold, opened.scene.room.shape, opened.scene.allow_non_orbifold);
   if (!room) return located(room.error(), opened.scene.room.shape.span.source ? opened.scene.room.shape.span : opened.scene.span);
-  auto furnished = place::furnish(opened.scene, *room);
+  auto furnished = place::furnish(opened.scene, *room, mesh_io::assets_from_files());
   if (!furnished) return located(furnished.error(), opened.scene.span);
   append(opened.notes, located(furnished->warnings, opened.scene.span));
   const auto lamps = light::hang_lamps(opened.scene, *room);

@@ -86,8 +86,7 @@ Mesh make_sphere(double radius, int around, int rings) {
     }
   }
   grid.triangles(true, true);
-  leave_out_unused(mesh);
-  return mesh;
+  return remove_unused_vertices(std::move(mesh)).mesh;
 }
 
 Mesh make_cylinder(double radius, double height, int around, int bands, int cap_rings) {
@@ -121,8 +120,7 @@ Mesh make_cylinder(double radius, double height, int around, int bands, int cap_
     }
     cap.triangles(top, !top);
   }
-  leave_out_unused(mesh);
-  return mesh;
+  return remove_unused_vertices(std::move(mesh)).mesh;
 }
 
 Mesh make_box(const std::array<double, 3>& size, const std::array<int, 3>& cells) {

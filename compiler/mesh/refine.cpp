@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "compiler/base/check.h"
-
 namespace orbc::mesh {
 namespace {
 
@@ -29,15 +27,16 @@ class Refinement {
   bool run(std::uint64_t max_triangles) {
     // An edge that stays whole once stays whole for ever, so triangles that were not cut are done.
     open_ = std::move(mesh_.triangles);
-    open_material_ = std::move(mesh_.material);
-    mesh_.triangles.clear(), mesh_.material.clear();
+    open_material_ = std::move(mesh_.triangle_material);
+    mesh_.triangles.clear();
+    mesh_.triangle_material.clear();
     while (!open_.empty()) {
       std::vector<Triangle> parts;
-      std::vector<std::uint8_t> material;
+      std::vector<std::uint16_t> material;
       for (std::size_t t = 0; t < open_.size(); ++t) {
         const bool whole = cut(open_[t], parts);
         if (!open_material_.empty()) {
-          if (whole) mesh_.material.push_back(open_material_[t]);
+          if (whole) mesh_.triangle_material.push_back(open_material_[t]);
           else material.resize(parts.size(), open_material_[t]);
         }
         if (mesh_.triangles.size() + parts.size() > max_triangles) return false;
@@ -75,6 +74,10 @@ class Refinement {
       const auto s = mesh_.uv[a], e = mesh_.uv[b];
       mesh_.uv.push_back({(s[0] + e[0]) / 2, (s[1] + e[1]) / 2});
     }
+    if (!mesh_.colors.empty()) {
+      const auto s = mesh_.colors[a], e = mesh_.colors[b];
+      mesh_.colors.push_back({(s[0] + e[0]) / 2, (s[1] + e[1]) / 2, (s[2] + e[2]) / 2});
+    }
     return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
   }
 
@@ -83,7 +86,10 @@ class Refinement {
     std::array<std::uint32_t, 3> m{};
     int count = 0;
     for (std::size_t k = 0; k < 3; ++k) count += (m[k] = middle(t[k], t[(k + 1) % 3])) != kNone;
-    if (count == 0) return mesh_.triangles.push_back(t), true;
+    if (count == 0) {
+      mesh_.triangles.push_back(t);
+      return true;
+    }
     if (count == 3) {
       for (const Triangle& part :
            {Triangle{t[0], m[0], m[2]}, Triangle{m[0], t[1], m[1]}, Triangle{m[2], m[1], t[2]}, Triangle{m[0], m[1], m[2]}}) {
@@ -96,15 +102,18 @@ class Refinement {
     while (count == 1 ? m[k] == kNone : m[(k + 2) % 3] != kNone) ++k;
     const auto a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], ab = m[k], bc = m[(k + 1) % 3];
     if (count == 1) {
-      out.push_back({a, ab, c}), out.push_back({ab, b, c});
+      out.push_back({a, ab, c});
+      out.push_back({ab, b, c});
       return false;
     }
     out.push_back({ab, b, bc});
     const Vector3 d = mesh_.positions[bc] - mesh_.positions[a], e = mesh_.positions[ab] - mesh_.positions[c];
     if (dot(d, d) <= dot(e, e)) {
-      out.push_back({a, ab, bc}), out.push_back({a, bc, c});
+      out.push_back({a, ab, bc});
+      out.push_back({a, bc, c});
     } else {
-      out.push_back({a, ab, c}), out.push_back({ab, bc, c});
+      out.push_back({a, ab, c});
+      out.push_back({ab, bc, c});
     }
     return false;
   }
@@ -112,7 +121,7 @@ class Refinement {
   Mesh mesh_;
   const SplitEdge& split_;
   std::vector<Triangle> open_;
-  std::vector<std::uint8_t> open_material_;
+  std::vector<std::uint16_t> open_material_;
   std::vector<std::uint32_t> edges_of_;  // of each vertex the first of its edges to later vertices
   std::vector<Edge> edges_;
 };
@@ -124,13 +133,6 @@ Result<Mesh> refine(const Mesh& mesh, const SplitEdge& split, std::uint64_t max_
   if (refinement.run(max_triangles)) return refinement.take();
   return make_error("mesh.too-dense", fmt::format("the mesh would need more than {} triangles to be fine enough", max_triangles),
                     "ask for longer edges, or make the object smaller");
-}
-
-Result<Mesh> refine_to_length(const Mesh& mesh, double max_edge, std::uint64_t max_triangles) {
-  ORBC_CHECK(max_edge, >, 0);
-  const double square = max_edge * max_edge;
-  return refine(
-      mesh, [square](const Vector3& a, const Vector3& b) { return dot(a - b, a - b) > square; }, max_triangles);
 }
 
 }  // namespace orbc::mesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace orbc::mesh {
 namespace {
@@ -14,7 +15,7 @@ bool less(const geometry::Vector3& a, const geometry::Vector3& b) {
 
 }  // namespace
 
-std::vector<std::uint32_t> welded(const std::vector<geometry::Vector3>& positions) {
+std::vector<std::uint32_t> weld_positions(const std::vector<geometry::Vector3>& positions) {
   std::vector<std::uint32_t> order(positions.size()), first(positions.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -29,24 +30,27 @@ std::vector<std::uint32_t> welded(const std::vector<geometry::Vector3>& position
   return first;
 }
 
-std::vector<std::uint32_t> leave_out_unused(Mesh& mesh) {
-  std::vector<std::uint32_t> moved(mesh.positions.size(), 0);
+CompactMesh remove_unused_vertices(Mesh mesh) {
+  constexpr std::uint32_t kUnused = 0xffffffff;
+  std::vector<std::uint32_t> index(mesh.positions.size(), kUnused);
   for (const auto& t : mesh.triangles) {
-    for (const auto v : t) moved[v] = 1;
+    for (const auto v : t) index[v] = 0;
   }
   std::uint32_t next = 0;
   std::vector<std::uint32_t> origin;
-  for (std::size_t v = 0; v < moved.size(); ++v) {
-    if (!moved[v]) continue;
+  for (std::size_t v = 0; v < index.size(); ++v) {
+    if (index[v] == kUnused) continue;
     mesh.positions[next] = mesh.positions[v];
     if (!mesh.uv.empty()) mesh.uv[next] = mesh.uv[v];
-    moved[v] = next++;
+    if (!mesh.colors.empty()) mesh.colors[next] = mesh.colors[v];
+    index[v] = next++;
     origin.push_back(static_cast<std::uint32_t>(v));
   }
   mesh.positions.resize(next);
   if (!mesh.uv.empty()) mesh.uv.resize(next);
-  for (auto& t : mesh.triangles) t = {moved[t[0]], moved[t[1]], moved[t[2]]};
-  return origin;
+  if (!mesh.colors.empty()) mesh.colors.resize(next);
+  for (auto& t : mesh.triangles) t = {index[t[0]], index[t[1]], index[t[2]]};
+  return {std::move(mesh), std::move(origin)};
 }
 
 }  // namespace orbc::mesh

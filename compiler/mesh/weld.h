@@ -6,10 +6,16 @@
 
 namespace orbc::mesh {
 
-/// For each vertex the first of those with bitwise its position (−0 and 0 are one): files double vertices at uv seams.
-[[nodiscard]] std::vector<std::uint32_t> welded(const std::vector<geometry::Vector3>& positions);
+/// Makes: for each vertex the first of those with bitwise its position (−0 and 0 are one). Files double vertices at uv seams.
+[[nodiscard]] std::vector<std::uint32_t> weld_positions(const std::vector<geometry::Vector3>& positions);
 
-/// Drops vertices that no triangle uses; the others keep their order. Makes: which vertex each one left was.
-std::vector<std::uint32_t> leave_out_unused(Mesh& mesh);
+/// A mesh without unused vertices.
+struct CompactMesh {
+  Mesh mesh;
+  std::vector<std::uint32_t> origin;  ///< per vertex: which one of the given mesh it was
+};
+
+/// Removes vertices that no triangle uses. The others keep their order.
+[[nodiscard]] CompactMesh remove_unused_vertices(Mesh mesh);
 
 }  // namespace orbc::mesh

@@ -12,7 +12,7 @@
 #include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/geometry/predicates.h"
-#include "compiler/mesh/examine.h"
+#include "compiler/mesh/analyse.h"
 #include "compiler/mesh/refine.h"
 #include "compiler/place/locate.h"
 #include "compiler/place/place.h"
@@ -109,13 +109,13 @@ class Pose {
 
 // The mesh's centroid where its pose puts it. The centroid of a surface does not follow where lengths change unevenly.
 Vector3 posed_centroid(const mesh::Mesh& mesh, const Pose& pose) {
-  mesh::ExamineOptions quickly;
+  mesh::AnalyseOptions quickly;
   quickly.crossings = false;
-  if (!pose.is_scaled()) return pose(mesh::examine(mesh, quickly).centroid);
+  if (!pose.is_scaled()) return pose(mesh::analyse(mesh, quickly).centroid);
   mesh::Mesh posed;
   posed.triangles = mesh.triangles;
   for (const Vector3& own : mesh.positions) posed.positions.push_back(pose(own));
-  return mesh::examine(posed, quickly).centroid;
+  return mesh::analyse(posed, quickly).centroid;
 }
 
 // ---- refining ---------------------------------------------------------------------------------------------------------------
@@ -223,8 +223,10 @@ std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh&
 Result<mesh::Mesh> flatten(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room) {
   const Pose pose(object);
   mesh::Mesh flat;
-  flat.uv = mesh.uv, flat.triangles = mesh.triangles, flat.material = mesh.material;
-  if (pose.is_mirrored()) mesh::turn_inside_out(flat);
+  flat.uv = mesh.uv;
+  flat.triangles = mesh.triangles;
+  flat.triangle_material = mesh.triangle_material;
+  if (pose.is_mirrored()) flat = mesh::flip_orientation(std::move(flat));
   const Vector3 middle = posed_centroid(mesh, pose);
   Vector3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const Vector3& own : mesh.positions) {
@@ -282,7 +284,7 @@ Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& obj
   placed.name = object.name;
   placed.uv = std::move(flat.uv);
   placed.triangles = std::move(flat.triangles);
-  placed.look.assign(flat.material.begin(), flat.material.end());
+  placed.look.assign(flat.triangle_material.begin(), flat.triangle_material.end());
   placed.look.resize(placed.triangles.size(), 0);
   const geometry::Isometry room_from_object =
       geometry::translation_to(room.space, at->floor) * geometry::rotation(room.space, object.turn.radians);

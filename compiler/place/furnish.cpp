@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "compiler/image/image.h"
-#include "compiler/image_io/decode.h"
-#include "compiler/mesh/examine.h"
+#include "compiler/mesh/analyse.h"
 #include "compiler/mesh/primitives.h"
 #include "compiler/place/beams.h"
 #include "compiler/place/locate.h"
@@ -50,6 +49,7 @@ image::Image masked(const image::Image* colors, const image::Image& mask) {
 struct Builder {
   const scene::Scene& scene;
   const room::Room& room;
+  const mesh::AssetSource& assets;
   const FurnishOptions& options;
   PlacedRoom placed;
   Diagnostics errors, warnings;
@@ -77,7 +77,7 @@ struct Builder {
   int texture(const scene::Sourced<std::string>& written) {
     const auto known = texture_of_path.find(written.value);
     if (known != texture_of_path.end()) return known->second;
-    Result<image::Image> image = image_io::load_image(path_of(written.value), options.load.images);
+    Result<image::Image> image = assets.load_image(path_of(written.value));
     int index = -1;
     if (image) {
       index = static_cast<int>(placed.textures.size());
@@ -177,7 +177,7 @@ const mesh::Mesh* load(Builder& builder, const scene::Sourced<std::string>& path
   const std::string file = builder.same_path(path.value);
   const auto known = builder.mesh_of_path.find(file);
   if (known != builder.mesh_of_path.end()) return known->second.triangles.empty() ? nullptr : &known->second;
-  Result<mesh::Loaded> loaded = mesh::load_mesh(builder.path_of(path.value), builder.options.load);
+  Result<mesh::LoadedMesh> loaded = builder.assets.load_mesh(builder.path_of(path.value));
   mesh::Mesh& mesh = builder.mesh_of_path[file];
   if (!loaded) {
     builder.fail(std::move(loaded).error(), path.span);
@@ -185,7 +185,7 @@ const mesh::Mesh* load(Builder& builder, const scene::Sourced<std::string>& path
   }
   mesh = std::move(loaded->mesh);
   Diagnostics notes = std::move(loaded->warnings);
-  for (Diagnostic& d : mesh::warnings_of(mesh::examine(mesh), path.value)) notes.push_back(std::move(d));
+  for (Diagnostic& d : mesh::report_warnings(mesh::analyse(mesh), path.value)) notes.push_back(std::move(d));
   for (Diagnostic& d : located(std::move(notes), path.span)) builder.warnings.push_back(std::move(d));
   return &mesh;
 }
@@ -204,11 +204,11 @@ std::vector<std::uint16_t> file_looks(Builder& builder, const mesh::Mesh& mesh, 
   std::vector<std::uint16_t> looks;
   const int first = static_cast<int>(builder.placed.textures.size());
   builder.placed.textures.insert(builder.placed.textures.end(), mesh.textures.begin(), mesh.textures.end());
-  for (const mesh::Mesh::Look& own : mesh.looks) {
+  for (const mesh::Material& own : mesh.materials) {
     Look look;
     look.color = look.material.color = {own.color[0], own.color[1], own.color[2]};
     look.texture = own.texture >= 0 && !placed.uv.empty() ? first + own.texture : -1;
-    look.cutoff = own.cutoff;
+    look.cutoff = own.alpha_cutoff;
     looks.push_back(builder.add(look));
   }
   if (looks.empty()) looks.push_back(builder.add({}));
@@ -295,8 +295,9 @@ void build_object(Builder& builder, const scene::Object& object) {
 
 }  // namespace
 
-Result<Furnished> furnish(const scene::Scene& scene, const room::Room& room, const FurnishOptions& options) {
-  Builder builder{scene, room, options, {}, {}, {}, {}, {}, {}};
+Result<Furnished> furnish(const scene::Scene& scene, const room::Room& room, const mesh::AssetSource& assets,
+                          const FurnishOptions& options) {
+  Builder builder{scene, room, assets, options, {}, {}, {}, {}, {}, {}};
   builder.placed.room = room;
   builder.placed.height = scene.room.height;
   ClippedMirrors mirrors = clipped_mirrors(scene.room, room);

@@ -34,9 +34,9 @@ void write(const std::string& path, const std::string& bytes) {
 std::string ply(Mesh mesh) {
   // Without uv no vertex has to be double.
   mesh.uv.clear();
-  const auto weld = orbc::mesh::welded(mesh.positions);
+  const auto weld = orbc::mesh::weld_positions(mesh.positions);
   for (auto& t : mesh.triangles) t = {weld[t[0]], weld[t[1]], weld[t[2]]};
-  orbc::mesh::leave_out_unused(mesh);
+  mesh = orbc::mesh::remove_unused_vertices(std::move(mesh)).mesh;
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment made by scripts/make_meshes; z up, front along +x\nelement vertex " +
                     std::to_string(mesh.positions.size()) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                     std::to_string(mesh.triangles.size()) + "\nproperty list uchar uint vertex_indices\nend_header\n";

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "compiler/mesh/analyse.h"
 #include "compiler/mesh/decimate.h"
-#include "compiler/mesh/examine.h"
 #include "compiler/mesh/weld.h"
 
 namespace make_meshes {
@@ -144,16 +144,17 @@ Mesh surface_of(const Field& field, const Vector3& low, const Vector3& high, dou
 
 Mesh simplified(const Mesh& mesh, std::size_t triangles, const char* name) {
   auto done = orbc::mesh::decimate(mesh, {.triangles = triangles, .max_error = 0});
-  auto found = orbc::mesh::examine(done.mesh);
+  auto found = orbc::mesh::analyse(done.mesh);
   for (std::size_t less = 500; found.crossings > 0 && less <= 2000; less += 500) {
     std::printf("%s: %zu triangles cross\n", name, found.crossings);
     done = orbc::mesh::decimate(mesh, {.triangles = triangles - less, .max_error = 0});
-    found = orbc::mesh::examine(done.mesh);
+    found = orbc::mesh::analyse(done.mesh);
   }
   for (auto& p : done.mesh.positions) p.z -= found.lowest.z;
   std::printf("%-16s %7zu -> %6zu triangles, error %.2e, %s, Euler %d, %zu bad edges, %zu crossings, box %.3f x %.3f x %.3f\n", name,
-              mesh.triangles.size(), done.mesh.triangles.size(), done.error, found.closed ? "closed" : "OPEN", found.euler, found.bad_edges,
-              found.crossings, found.highest.x - found.lowest.x, found.highest.y - found.lowest.y, found.highest.z - found.lowest.z);
+              mesh.triangles.size(), done.mesh.triangles.size(), done.error, found.closed ? "closed" : "OPEN", found.euler,
+              found.non_manifold_edges, found.crossings, found.highest.x - found.lowest.x, found.highest.y - found.lowest.y,
+              found.highest.z - found.lowest.z);
   return done.mesh;
 }
 

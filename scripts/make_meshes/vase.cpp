@@ -146,8 +146,7 @@ Mesh vase() {
     grid(base, static_cast<std::uint32_t>(n) + 1, kAcross, true);
     for (auto t = first; t < mesh.triangles.size(); ++t) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
   }
-  leave_out_unused(mesh);
-  return mesh;
+  return remove_unused_vertices(std::move(mesh)).mesh;
 }
 
 }  // namespace make_meshes

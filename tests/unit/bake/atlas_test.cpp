@@ -9,6 +9,7 @@
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;
@@ -50,7 +51,7 @@ image::Image noise(int width, int height, unsigned seed) {
 
 place::PlacedRoom furnished(scene::Scene scene) {
   scene.allow_non_orbifold = true;
-  return place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
+  return place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
 }
 
 // One triangle of texture 0 over the whole picture.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compiler/image/image.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/image/srgb.h"
 #include "tests/support/lit_room.h"
 
@@ -15,9 +16,9 @@ using test::lit_scene;
 TEST_CASE("patterns need a bake even without lamps, plain colours need none", "[bake]") {
   scene::Scene scene = scene::default_scene(notation::parse("*222").value());
   const room::Room room = room::realise(scene.orbifold, scene.room.shape).value();
-  CHECK_FALSE(bake::needs_bake(scene, place::furnish(scene, room).value().room));
+  CHECK_FALSE(bake::needs_bake(scene, place::furnish(scene, room, mesh_io::assets_from_files()).value().room));
   scene.room.floor.material.pattern = scene::Pattern::marble;
-  CHECK(bake::needs_bake(scene, place::furnish(scene, room).value().room));
+  CHECK(bake::needs_bake(scene, place::furnish(scene, room, mesh_io::assets_from_files()).value().room));
 }
 
 TEST_CASE("the bake holds the light of every point, and the same bytes for any executor", "[bake]") {

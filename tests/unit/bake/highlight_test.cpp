@@ -12,6 +12,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/trace/analytic.h"
 
 using namespace orbc;
@@ -46,7 +47,7 @@ Stage stage(const std::string& orbifold, int bounces, scene::MaterialKind kind) 
   s.scene.camera.place.z = 0.4;
   s.scene.camera.size = {160, 120};
   s.scene.cover.max_bounces = bounces;
-  s.room = place::furnish(s.scene, room::realise(s.scene.orbifold, s.scene.room.shape).value()).value().room;
+  s.room = place::furnish(s.scene, room::realise(s.scene.orbifold, s.scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
   s.eye = place::make_eye(s.scene, s.room).value();
   s.copies = cover::unfold(s.room, s.eye, s.scene.cover).value();
   return s;

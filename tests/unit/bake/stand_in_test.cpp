@@ -9,6 +9,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/surface/frame.h"
 
 using namespace orbc;
@@ -31,7 +32,8 @@ LitStandIn lit(const std::string& orbifold, int passes = 0) {
   lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
   lamp.place.z = 0.6;
   scene.lamps = {lamp};
-  LitStandIn result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
+  LitStandIn result{
+      scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room, {}};
   light::LightOptions options;
   options.cut = 0;
   options.passes = passes;

@@ -11,6 +11,7 @@
 #include "compiler/place/locate.h"
 #include "compiler/room/realise.h"
 #include "compiler/room/room.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;
@@ -31,7 +32,7 @@ Plain plain(const char* notation) {
   p.scene = scene::default_scene(notation::parse(notation).value());
   for (scene::Wall& wall : p.scene.room.walls) wall.mirrors.clear();
   p.scene.lamps.clear(), p.scene.objects.clear();
-  p.room = place::furnish(p.scene, room::realise(p.scene.orbifold, p.scene.room.shape).value()).value().room;
+  p.room = place::furnish(p.scene, room::realise(p.scene.orbifold, p.scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
   for (std::uint32_t i = 0; i < p.room.parts.size(); ++i) {
     p.normals.push_back(surface::part_normals(p.room, p.room.parts[i]));
     p.blocks.push_back(bake::blocks_of(p.room, i, p.normals.back()));
@@ -92,7 +93,8 @@ TEST_CASE("light passed on in half spheres and lunes is a number everywhere", "[
     scene.integrator = scene::Integrator::path;
     scene.bake.quality = scene::BakeQuality::draft;
     scene.bake.samples = 16;
-    const place::PlacedRoom room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
+    const place::PlacedRoom room =
+        place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
     const light::LightField field = light::prepare_light(scene, room, bake::baked_light_options(scene)).value();
     const bake::Baked baked = bake::bake(room, field, bake::bake_options(scene.bake), serial_executor()).value();
     // Black texels are what no numbers become.

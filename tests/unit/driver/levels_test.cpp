@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "compiler/bend/log_map.h"
-#include "compiler/mesh/examine.h"
+#include "compiler/mesh/analyse.h"
 #include "tests/unit/bend/fixture.h"
 
 using namespace orbc;
@@ -47,7 +47,7 @@ TEST_CASE("levels are made of the heavy part alone, ever coarser, closed as it i
   for (const auto& level : levels.back()) {
     CHECK(level.mesh.triangles.size() < triangles);
     CHECK(level.error >= error);
-    CHECK(mesh::examine(in_disk(room.room.space, level.mesh)).closed);
+    CHECK(mesh::analyse(in_disk(room.room.space, level.mesh)).closed);
     CHECK(level.mesh.look.size() == level.mesh.triangles.size());
     for (std::size_t i = 0; i < level.mesh.floor.size(); i += 7)
       CHECK(std::any_of(part.floor.begin(), part.floor.end(), [&](const auto& p) {

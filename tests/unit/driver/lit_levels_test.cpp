@@ -9,6 +9,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/surface/frame.h"
 
 using namespace orbc;
@@ -25,7 +26,8 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
   lamp.place.z = 0.95 * scene.room.height;
   lamp.power = 3;
   scene.lamps = {lamp};
-  const place::PlacedRoom room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
+  const place::PlacedRoom room =
+      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
   const geometry::Space space = room.room.space;
   light::LightOptions lit;
   lit.passes = 8, lit.bounces = 2;

@@ -3,22 +3,23 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "compiler/mesh/examine.h"
-#include "compiler/mesh/nearest.h"
+#include "compiler/mesh/analyse.h"
+#include "compiler/mesh/closest_point_tree.h"
 #include "compiler/mesh/primitives.h"
-#include "compiler/mesh/refine.h"
+#include "tests/unit/mesh/refined.h"
 
 using namespace orbc;
 using namespace orbc::mesh;
+using orbc::mesh::test::refine_to_length;
 
 TEST_CASE("decimation reaches the asked number and keeps a body closed, over uv seams too", "[mesh]") {
   for (const auto& mesh : {make_sphere(1, 64, 32), make_torus(1, 0.3), make_torus_knot(2, 3, 1, 0.2, 200, 16), make_cylinder(1, 2)}) {
-    const auto before = examine(mesh);
+    const auto before = analyse(mesh);
     for (const std::size_t count : {mesh.triangles.size() / 2, mesh.triangles.size() / 10}) {
       const auto coarse = decimate(mesh, {.triangles = count});
       CHECK(coarse.mesh.triangles.size() <= count);
       CHECK(coarse.mesh.triangles.size() + 2 >= count);
-      const auto after = examine(coarse.mesh);
+      const auto after = analyse(coarse.mesh);
       CHECK(after.closed);
       CHECK(after.euler == before.euler);
       CHECK(after.degenerate == 0);
@@ -39,7 +40,7 @@ TEST_CASE("decimation never exceeds the error it is allowed, and says what it re
     CHECK(coarse.error > allowed / 10);
     CHECK(coarse.mesh.triangles.size() < last);
     last = coarse.mesh.triangles.size();
-    const Nearest nearest(coarse.mesh);
+    const ClosestPointTree nearest(coarse.mesh);
     double largest = 0;
     for (const auto& p : mesh.positions) largest = std::max(largest, nearest.distance(p, 9));
     CHECK(largest == Approx(coarse.error));
@@ -59,18 +60,18 @@ TEST_CASE("decimation of a flat sheet keeps its border, its uv and the border be
   square.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}};
   for (const auto& p : square.positions) square.uv.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
   square.triangles = {{0, 1, 4}, {0, 4, 5}, {1, 2, 3}, {1, 3, 4}};
-  square.material = {0, 0, 1, 1};
+  square.triangle_material = {0, 0, 1, 1};
   const auto fine = refine_to_length(square, 0.06);
   REQUIRE(fine);
   const auto coarse = decimate(*fine, {.triangles = 4});
   CHECK(coarse.mesh.triangles.size() == 4);
   CHECK(coarse.error < 1e-12);
-  const auto found = examine(coarse.mesh);
+  const auto found = analyse(coarse.mesh);
   CHECK(found.area == Approx(2));
   for (std::size_t t = 0; t < coarse.mesh.triangles.size(); ++t) {
     double x = 0;
     for (const auto v : coarse.mesh.triangles[t]) x += coarse.mesh.positions[v].x / 3;
-    CHECK(coarse.mesh.material[t] == (x < 1 ? 0 : 1));
+    CHECK(coarse.mesh.triangle_material[t] == (x < 1 ? 0 : 1));
   }
   for (std::size_t v = 0; v < coarse.mesh.positions.size(); ++v) {
     CHECK(coarse.mesh.uv[v][0] == Approx(coarse.mesh.positions[v].x));
@@ -102,7 +103,7 @@ TEST_CASE("decimation leaves alone what is no surface", "[mesh]") {
   REQUIRE(fine);
   const auto coarse = decimate(*fine, {.triangles = 10});
   CHECK(coarse.mesh.triangles.size() < fine->triangles.size());
-  CHECK(examine(coarse.mesh).area == Approx(examine(*fine).area).epsilon(1e-9));
+  CHECK(analyse(coarse.mesh).area == Approx(analyse(*fine).area).epsilon(1e-9));
   CHECK(decimate(Mesh{}, {.triangles = 10}).mesh.triangles.empty());
 }
 
@@ -113,7 +114,7 @@ TEST_CASE("a chain of decimations knows where its vertices come from", "[mesh]")
   std::size_t count = mesh.triangles.size();
   for (const auto& step : chain) {
     CHECK(step.mesh.triangles.size() < count);
-    CHECK(examine(step.mesh).closed);
+    CHECK(analyse(step.mesh).closed);
     REQUIRE(step.origin.size() == step.mesh.positions.size());
     for (std::size_t v = 0; v < step.origin.size(); ++v) CHECK(length(step.mesh.positions[v] - mesh.positions[step.origin[v]]) == 0);
     count = step.mesh.triangles.size();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compiler/mesh/examine.h"
+#include "compiler/mesh/analyse.h"
 
 using namespace orbc;
 using namespace orbc::mesh;
@@ -13,7 +13,7 @@ using std::numbers::pi;
 namespace {
 
 void is_sound(const Mesh& mesh, int euler, std::size_t triangles) {
-  const auto found = examine(mesh);
+  const auto found = analyse(mesh);
   CHECK(mesh.triangles.size() == triangles);
   CHECK(found.closed);
   CHECK_FALSE(found.inside_out);
@@ -45,7 +45,7 @@ TEST_CASE("a torus knot of 26,022 triangles exists for the speed scene", "[mesh]
 }
 
 TEST_CASE("volumes of primitives converge to their closed forms with the square of the step", "[mesh]") {
-  const auto volume = [](const Mesh& mesh) { return examine(mesh, {.crossings = false}).volume; };
+  const auto volume = [](const Mesh& mesh) { return analyse(mesh, {.crossings = false}).volume; };
   CHECK(volume(make_box({1, 2, 3})) == Approx(6).epsilon(1e-14));
   CHECK(volume(make_beam(5, 0.2)) == Approx(0.2).epsilon(1e-14));
   const auto converges = [&](auto&& make, double exact) {
@@ -69,7 +69,7 @@ TEST_CASE("volumes of primitives converge to their closed forms with the square 
 
 TEST_CASE("primitives are centred and as large as they say", "[mesh]") {
   const auto knows = [](const Mesh& mesh, double x, double y, double z) {
-    const auto found = examine(mesh, {.crossings = false});
+    const auto found = analyse(mesh, {.crossings = false});
     CHECK(found.highest.x == Approx(x));
     CHECK(found.highest.y == Approx(y));
     CHECK(found.highest.z == Approx(z));

@@ -1,13 +1,14 @@
-#include "compiler/mesh/refine.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "compiler/mesh/examine.h"
+#include "compiler/mesh/analyse.h"
 #include "compiler/mesh/primitives.h"
+#include "tests/unit/mesh/refined.h"
 
 using namespace orbc;
 using namespace orbc::mesh;
+using orbc::mesh::test::refine_to_length;
 
 namespace {
 
@@ -23,12 +24,12 @@ double longest_edge(const Mesh& mesh) {
 
 TEST_CASE("refinement reaches the asked length and keeps a surface closed, over uv seams too", "[mesh]") {
   for (const auto& mesh : {make_sphere(1, 8, 5), make_box({1, 2, 3}, {1, 1, 1}), make_torus(1, 0.3, 7, 5), make_cylinder(1, 2, 6, 1, 1)}) {
-    const auto before = examine(mesh);
+    const auto before = analyse(mesh);
     for (const double edge : {0.5, 0.21, 0.1}) {
       const auto fine = refine_to_length(mesh, edge);
       REQUIRE(fine);
       CHECK(longest_edge(*fine) <= edge);
-      const auto after = examine(*fine);
+      const auto after = analyse(*fine);
       CHECK(after.closed);
       CHECK(after.euler == before.euler);
       CHECK(after.volume == Approx(before.volume).epsilon(1e-12));
@@ -43,7 +44,7 @@ TEST_CASE("refinement asks of each edge alone: part of a mesh can be refined wit
   const auto mesh = make_sphere(1, 12, 8);
   const auto fine = refine(mesh, [](const auto& a, const auto& b) { return a.z + b.z > 0.8 && length(a - b) > 0.1; });
   REQUIRE(fine);
-  CHECK(examine(*fine).closed);
+  CHECK(analyse(*fine).closed);
   CHECK(fine->triangles.size() > mesh.triangles.size());
 }
 
@@ -52,18 +53,18 @@ TEST_CASE("refinement halves uv with its edge and keeps the look of triangles", 
   square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   square.uv = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
-  square.material = {3, 7};
+  square.triangle_material = {3, 7};
   const auto fine = refine_to_length(square, 0.1);
   REQUIRE(fine);
   for (std::size_t i = 0; i < fine->positions.size(); ++i) {
     CHECK(fine->uv[i][0] == Approx(fine->positions[i].x).margin(1e-6));
     CHECK(fine->uv[i][1] == Approx(1 - fine->positions[i].y).margin(1e-6));
   }
-  REQUIRE(fine->material.size() == fine->triangles.size());
+  REQUIRE(fine->triangle_material.size() == fine->triangles.size());
   for (std::size_t t = 0; t < fine->triangles.size(); ++t) {
     geometry::Vector3 sum;
     for (const auto v : fine->triangles[t]) sum = sum + fine->positions[v];
-    CHECK(fine->material[t] == (sum.y < sum.x ? 3 : 7));
+    CHECK(fine->triangle_material[t] == (sum.y < sum.x ? 3 : 7));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/place/locate.h"
 #include "compiler/room/realise.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/scene/read.h"
 
 using namespace orbc;
@@ -26,7 +27,7 @@ Measured measured(const char* notation, const std::string& object, double foot =
   if (!read) FAIL(to_text(read.error()));
   const auto room = room::realise(read->scene.orbifold);
   REQUIRE(room);
-  const auto furnished = place::furnish(read->scene, *room);
+  const auto furnished = place::furnish(read->scene, *room, mesh_io::assets_from_files());
   if (!furnished) FAIL(to_text(furnished.error()));
   const geometry::Point at = place::locate(read->scene.objects[0].place, *room).value();
   const geometry::Isometry foot_from_room = geometry::inverse(geometry::translation_to(room->space, at));

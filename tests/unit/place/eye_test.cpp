@@ -4,6 +4,7 @@
 
 #include "compiler/mesh/primitives.h"
 #include "compiler/place/furnish.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/place/locate.h"
 #include "rooms.h"
 
@@ -24,7 +25,7 @@ scene::Scene bare_scene(const std::string& notation) {
 }
 
 PlacedRoom interior_of(const scene::Scene& scene) {
-  return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value()).value().room;
+  return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value(), mesh_io::assets_from_files()).value().room;
 }
 
 scene::Object sphere_at(double r, double degrees, double z, double radius) {

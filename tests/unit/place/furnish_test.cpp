@@ -8,6 +8,7 @@
 
 #include "compiler/image/image.h"
 #include "compiler/image_io/png.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/place/wrap.h"
 #include "rooms.h"
 
@@ -24,7 +25,7 @@ scene::Scene default_of(const std::string& notation) {
 }
 
 Result<Furnished> furnished(const scene::Scene& scene) {
-  return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value());
+  return furnish(scene, room::realise(scene.orbifold, scene.room.shape, true).value(), mesh_io::assets_from_files());
 }
 
 // A folder with a picture and a mesh in it.

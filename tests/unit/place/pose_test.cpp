@@ -1,7 +1,7 @@
 // What is done to a mesh before it stands: up, scale, rotate.
 #include <catch2/catch.hpp>
 
-#include "compiler/mesh/examine.h"
+#include "compiler/mesh/analyse.h"
 #include "compiler/mesh/primitives.h"
 #include "compiler/place/place.h"
 #include "rooms.h"
@@ -35,7 +35,7 @@ struct Box3 {
   Vector3 low, high;
 };
 Box3 extent(const PlacedMesh& placed) {
-  const mesh::Examination e = mesh::examine(flat_mesh(placed), {.crossings = false});
+  const mesh::MeshReport e = mesh::analyse(flat_mesh(placed), {.crossings = false});
   return {e.lowest, e.highest};
 }
 
@@ -57,7 +57,7 @@ mesh::Mesh lopsided() {
 TEST_CASE("the axis that is up points up, whichever it is, and the mesh stays itself", "[place]") {
   const room::Room room = make_room("*2222");
   const mesh::Mesh body = lopsided();
-  const mesh::Examination own = mesh::examine(body);
+  const mesh::MeshReport own = mesh::analyse(body);
   const double low[] = {own.lowest.x, own.lowest.y, own.lowest.z}, high[] = {own.highest.x, own.highest.y, own.highest.z};
   for (const scene::Axis up : {scene::Axis::plus_x, scene::Axis::minus_x, scene::Axis::plus_y, scene::Axis::minus_y, scene::Axis::plus_z,
                                scene::Axis::minus_z}) {
@@ -66,7 +66,7 @@ TEST_CASE("the axis that is up points up, whichever it is, and the mesh stays it
     scene::Object object = plain_object();
     object.up = up;
     const PlacedMesh placed = place_object(body, object, room, 2).value();
-    const mesh::Examination now = mesh::examine(flat_mesh(placed));
+    const mesh::MeshReport now = mesh::analyse(flat_mesh(placed));
     CHECK(now.volume == Approx(own.volume));   // a turn, no mirror image
     const double foot = sign > 0 ? low[axis] : -high[axis];
     for (std::size_t i = 0; i < body.positions.size(); ++i) {
@@ -145,12 +145,12 @@ TEST_CASE("a mirror image keeps its outside outside and its uv, in every space",
       CHECK(mirrored.floor[i].y == Approx(whole.floor[i].y).margin(1e-14));
     }
     // Volume in the chart (x, y) × height: its sign is that of the orientation.
-    const double before = mesh::examine(flat_mesh(whole)).volume, after = mesh::examine(flat_mesh(mirrored)).volume;
+    const double before = mesh::analyse(flat_mesh(whole)).volume, after = mesh::analyse(flat_mesh(mirrored)).volume;
     CHECK(before > 0);
     CHECK(after == Approx(before));
     // Two mirrors are a turn: nothing is turned over.
     object.scale = {-1, 1, -1};
-    CHECK(mesh::examine(flat_mesh(place_object(body, object, room, 2).value())).volume == Approx(before));
+    CHECK(mesh::analyse(flat_mesh(place_object(body, object, room, 2).value())).volume == Approx(before));
   }
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("an open mesh that is stretched unevenly is centred where it is then",
   scene::Object object = plain_object();
   object.scale = {0.1, 0.1, 0.4};
   const PlacedMesh placed = place_object(open, object, room, 1).value();
-  const mesh::Examination e = mesh::examine(flat_mesh(placed));
+  const mesh::MeshReport e = mesh::analyse(flat_mesh(placed));
   CHECK(e.centroid.x == Approx(0).margin(1e-14));
   CHECK(e.centroid.y == Approx(0).margin(1e-14));
 }

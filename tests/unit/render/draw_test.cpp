@@ -11,6 +11,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/render/shade.h"
 #include "compiler/room/realise.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 #include "tests/support/threads.h"
 
@@ -33,7 +34,7 @@ place::PlacedRoom glowing_room(const char* notation, double rho, bool mirrors) {
     for (scene::Mirror& mirror : wall.mirrors) mirror.reflectance = rho, mirror.frame.reset();
   }
   const auto room = room::realise(orbifold);
-  return place::furnish(s, *room)->room;
+  return place::furnish(s, *room, mesh_io::assets_from_files())->room;
 }
 
 place::Eye eye_in(const place::PlacedRoom& room) {
@@ -67,7 +68,7 @@ place::PlacedRoom furnished_room(const char* notation, bool lamp, scene::Scene& 
     hung.place.z = 0.6;
     s.lamps = {hung};
   }
-  return place::furnish(s, *room::realise(s.orbifold))->room;
+  return place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->room;
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ TEST_CASE("clear glass in a room of one colour cannot be seen: what it reflects 
     ball.material->color = {1, 1, 1};
     ball.place.floor = scene::AtPolar{0.25, Angle::from_degrees(20)};
     s.objects = {ball};
-    const place::PlacedRoom room = place::furnish(s, *room::realise(s.orbifold))->room;
+    const place::PlacedRoom room = place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->room;
     const render::Film film = render::draw(trace::prepare(room), eye_in(room), {}, serial_executor());
     int through = 0;
     for (std::size_t i = 0; i < film.color.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/render/draw.h"
 #include "compiler/room/realise.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;
@@ -29,7 +30,9 @@ scene::Scene furnace(const char* notation, const std::array<double, 3>& reflecta
   return s;
 }
 
-place::PlacedRoom room_of(const scene::Scene& s) { return place::furnish(s, *room::realise(s.orbifold))->room; }
+place::PlacedRoom room_of(const scene::Scene& s) {
+  return place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->room;
+}
 
 place::Eye furnace_eye(const place::PlacedRoom& room) {
   place::Eye eye;

@@ -9,6 +9,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/render/draw.h"
 #include "compiler/room/realise.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 #include "tests/support/threads.h"
 
@@ -49,7 +50,7 @@ place::PlacedRoom room_with_ball(double distance, double radius) {
   ball.place.floor = scene::AtXy{distance, 0};
   ball.place.z = 1 - radius;
   s.objects = {ball};
-  return place::furnish(s, *room::realise(s.orbifold, s.room.shape))->room;
+  return place::furnish(s, *room::realise(s.orbifold, s.room.shape), mesh_io::assets_from_files())->room;
 }
 
 }  // namespace

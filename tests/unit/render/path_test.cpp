@@ -11,6 +11,7 @@
 #include "compiler/place/furnish.h"
 #include "compiler/render/shade.h"
 #include "compiler/room/realise.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;
@@ -27,7 +28,7 @@ struct Lit {
 std::unique_ptr<Lit> lit(const scene::Scene& scene, int passes, int mirrors = 2) {
   auto result = std::make_unique<Lit>();
   result->scene = scene;
-  result->room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
+  result->room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
   light::LightOptions options;
   options.bounces = mirrors, options.passes = passes, options.cut = 0, options.leg_bounces = 400;
   result->field = light::prepare_light(result->scene, result->room, options).value();

@@ -1,0 +1,81 @@
+// From a path to a mesh: each format becomes a polygon soup and that a mesh; glTF becomes a mesh directly.
+#include "compiler/mesh_io/load.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "compiler/files/files.h"
+#include "compiler/image_io/decode.h"
+#include "compiler/mesh_io/read_gltf.h"
+#include "compiler/mesh_io/readers.h"
+
+namespace orbc::mesh_io {
+namespace {
+
+std::string lower_case_ending(const std::string& path) {
+  auto ending = std::filesystem::path(path).extension().string();
+  for (auto& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
+std::optional<Format> format_of(const std::string& path) {
+  const auto ending = lower_case_ending(path);
+  if (ending == ".obj") return Format::obj;
+  if (ending == ".ply") return Format::ply;
+  if (ending == ".off") return Format::off;
+  if (ending == ".stl") return Format::stl;
+  if (ending == ".gltf") return Format::gltf;
+  if (ending == ".glb") return Format::glb;
+  return {};
+}
+
+Result<PolygonSoup> read_soup(std::string_view bytes, Format format, const ReadContext& context) {
+  switch (format) {
+    case Format::obj:
+      return read_obj(bytes, context);
+    case Format::ply:
+      return read_ply(bytes, context);
+    case Format::off:
+      return read_off(bytes, context);
+    default:
+      return read_stl(bytes, context);
+  }
+}
+
+}  // namespace
+
+Result<mesh::LoadedMesh> load_mesh_bytes(std::string_view bytes, Format format, const std::string& name, const std::string& folder,
+                                         const LoadOptions& options) {
+  if (bytes.size() > options.max_file_bytes) {
+    return make_error("mesh.too-big", fmt::format("{}: {} bytes; at most {} are read", name, bytes.size(), options.max_file_bytes));
+  }
+  if (bytes.empty()) return make_error("mesh.truncated", fmt::format("{}: the file is empty", name), "copy or export it again");
+  const ReadContext context{name, folder, options};
+  if (format == Format::gltf || format == Format::glb) return read_gltf(bytes, format == Format::glb, context);
+  auto soup = read_soup(bytes, format, context);
+  if (!soup) return std::move(soup).error();
+  return to_mesh(*std::move(soup), context);
+}
+
+Result<mesh::LoadedMesh> load_mesh(const std::string& path, const LoadOptions& options) {
+  const auto format = format_of(path);
+  if (!format) {
+    if (auto wrong = files::check_file(path, options.max_file_bytes); !wrong.empty() && wrong.front().code == "mesh.missing-file")
+      return wrong;
+    return make_error("mesh.unknown-format", fmt::format("{}: is not a kind of mesh file that is known here", path),
+                      "known are .obj, .ply, .off, .stl, .gltf and .glb");
+  }
+  auto bytes = files::read_file(path, options.max_file_bytes);
+  if (!bytes) return std::move(bytes).error();
+  auto folder = std::filesystem::path(path).parent_path().string();
+  return load_mesh_bytes(*bytes, *format, path, folder.empty() ? "." : folder, options);
+}
+
+mesh::AssetSource assets_from_files(const LoadOptions& options) {
+  return {[options](const std::string& path) { return load_mesh(path, options); },
+          [options](const std::string& path) { return image_io::load_image(path, options.images); }};
+}
+
+}  // namespace orbc::mesh_io

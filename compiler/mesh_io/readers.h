@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "compiler/mesh_io/load.h"
+#include "compiler/mesh_io/polygon_soup.h"
+
+namespace orbc::mesh_io {
+
+// One reader for each format. Each takes the whole file and trusts nothing in it: counts, indices and numbers are checked before they are
+// used. Diagnostics: those of load_mesh.
+
+/// Wavefront OBJ with its MTL.
+[[nodiscard]] Result<PolygonSoup> read_obj(std::string_view bytes, const ReadContext& context);
+/// PLY, text or binary.
+[[nodiscard]] Result<PolygonSoup> read_ply(std::string_view bytes, const ReadContext& context);
+/// Geomview's OFF, as text.
+[[nodiscard]] Result<PolygonSoup> read_off(std::string_view bytes, const ReadContext& context);
+/// STL, text or binary. Corners at the same position share a vertex.
+[[nodiscard]] Result<PolygonSoup> read_stl(std::string_view bytes, const ReadContext& context);
+
+}  // namespace orbc::mesh_io
