@@ -18,8 +18,9 @@
 #include "compiler/bake/pattern_density.h"
 #include "compiler/base/elementary.h"
 #include "compiler/image/srgb.h"
-#include "compiler/light/way.h"
+#include "compiler/light/connection.h"
 #include "compiler/place/texel.h"
+#include "compiler/surface/albedo.h"
 
 namespace orbc::bake {
 namespace {
@@ -50,7 +51,7 @@ class BlockBaker {
  public:
   BlockBaker(const LitPart& part, const Block& block) : part_(part), block_(block) {
     const int look = part.mesh.look[block.first];
-    varies_ = surface::varies(part.room, look, surface::has_solid(part.mesh));
+    varies_ = surface::varies_in_triangle(part.room, part.mesh, look);
     material_ = &part.room.looks[static_cast<std::size_t>(look)].material;
     plain_ = part.room.looks[static_cast<std::size_t>(look)].color;
   }
@@ -94,7 +95,7 @@ class BlockBaker {
         if (block_.second >= 0 || u + v <= 1 + 1e-9) {
           Color light = light_at(lamps, u, v);
           if (passed) light = light + std::numbers::pi * light_at(*passed, u, v);
-          c = part_.field.exposure * light::radiance_out(part_.field, *material_, varies_ ? albedo(u, v) : plain_, light);
+          c = part_.lighting.exposure * light::outgoing_radiance(part_.lighting, *material_, varies_ ? albedo(u, v) : plain_, light);
         } else {  // a single triangle beyond its long side, which the lookup only touches one texel deep
           const auto at = [&](int x, int y) { return shown_at[static_cast<std::size_t>(y) * w + x]; };
           c = at(i - 1, j) + at(i, j - 1) + -1.0 * at(i - 1, j - 1);
@@ -136,7 +137,7 @@ class BlockBaker {
       return;
     }
     const InTriangle at =
-        within_block(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1), surface::kWithin);
+        within_block(block_, static_cast<double>(i) / (grid_.w - 1), static_cast<double>(j) / (grid_.h - 1), surface::kInset);
     const PointToLight asked = point_to_light(part_, at.triangle, at.b, std::max(block_.length_u, block_.length_v) / 2);
     grid_.blind[index(i, j)] = 0;
     if (asked.known) {
@@ -145,14 +146,14 @@ class BlockBaker {
     }
     ++grid_.asked;
     if (!near_known_) near_ = images_near_block(), near_known_ = true;
-    light = light::irradiance(part_.field, asked.point, near_);
-    grid_.blind[index(i, j)] = light == Color{} && light::covered(part_.field, asked.point);
+    light = light::irradiance(part_.lighting, asked.point, near_);
+    grid_.blind[index(i, j)] = light == Color{} && light::is_enclosed(part_.lighting, asked.point);
   }
 
   std::vector<std::uint32_t> images_near_block() const {
     const geometry::Space space = part_.room.room.space;
     const InTriangle middle = in_triangle(block_, 0.5, 0.5);
-    const geometry::Position centre = surface::light_point(part_.room, part_.mesh, part_.normals, middle.triangle, middle.b).at;
+    const geometry::Position centre = surface::shading_point(part_.room, part_.mesh, part_.normals, middle.triangle, middle.b).at;
     double radius = 0;
     for (int k = 0; k < 6; ++k) {
       if (k > 2 && block_.second < 0) break;
@@ -160,11 +161,11 @@ class BlockBaker {
           part_.mesh.triangles[k < 3 ? block_.first : static_cast<std::size_t>(block_.second)][static_cast<std::size_t>(k % 3)];
       radius = std::max(radius, math::hypot(geometry::distance(space, centre.floor, part_.mesh.floor[v]), part_.mesh.z[v] - centre.z));
     }
-    return light::images_near(part_.field, centre, 1.2 * radius);
+    return light::images_within(part_.lighting, centre, 1.2 * radius);
   }
 
   std::array<double, 3> shown(const Color& light) const {
-    const Color c = part_.field.exposure * light::radiance_out(part_.field, *material_, plain_, light);
+    const Color c = part_.lighting.exposure * light::outgoing_radiance(part_.lighting, *material_, plain_, light);
     return {255 * image::encode_srgb(c.r), 255 * image::encode_srgb(c.g), 255 * image::encode_srgb(c.b)};
   }
   double difference(const Color& a, const Color& b) const {
@@ -348,8 +349,8 @@ BakeOptions bake_options(const scene::BakeSpec& spec) {
 
 light::LightOptions baked_light_options(const scene::Scene& scene) {
   light::LightOptions options = light::light_options(scene);
-  if (scene.bake.quality == scene::BakeQuality::draft) options.cut = 1.0 / 128, options.step = 0.025;
-  if (scene.bake.quality == scene::BakeQuality::fine) options.step = 0.003;
+  if (scene.bake.quality == scene::BakeQuality::draft) options.cull_below = 1.0 / 128, options.max_step = 0.025;
+  if (scene.bake.quality == scene::BakeQuality::fine) options.max_step = 0.003;
   return options;
 }
 
@@ -365,14 +366,13 @@ bool shows_room(const place::PlacedRoom& room, bool lit) {
 bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room) {
   if (!scene.lamps.empty() || shows_room(room, false) || scene.integrator == scene::Integrator::path) return true;
   return std::any_of(room.parts.begin(), room.parts.end(), [&](const PlacedMesh& part) {
-    return std::any_of(part.look.begin(), part.look.end(), [&](std::uint16_t look) {
-      return room.looks[look].texture < 0 && surface::varies(room, look, surface::has_solid(part));
-    });
+    return std::any_of(part.look.begin(), part.look.end(),
+                       [&](std::uint16_t look) { return room.looks[look].texture < 0 && surface::varies_in_triangle(room, part, look); });
   });
 }
 
-Result<Baked> bake(const place::PlacedRoom& room, const light::LightField& field, const BakeOptions& options, const Executor& executor,
-                   const Progress& progress) {
+Result<Baked> bake(const place::PlacedRoom& room, const light::LightingContext& lighting, const BakeOptions& options,
+                   const Executor& executor, const Progress& progress) {
   std::vector<std::vector<Block>> blocks;
   std::vector<std::size_t> first;
   std::vector<surface::PartNormals> own(room.parts.size());  // of fields that have none
@@ -382,12 +382,12 @@ Result<Baked> bake(const place::PlacedRoom& room, const light::LightField& field
   std::optional<SurfaceMap> surfaces;
   Baked baked;
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
-    if (p >= field.normals.size()) own[p] = surface::part_normals(room, room.parts[p]);
-    normals.push_back(p < field.normals.size() ? &field.normals[p] : &own[p]);
-    const bool stand_in = field.lit && p >= field.normals.size();
+    if (p >= lighting.normals.size()) own[p] = surface::part_normals(room, room.parts[p]);
+    normals.push_back(p < lighting.normals.size() ? &lighting.normals[p] : &own[p]);
+    const bool stand_in = lighting.lit && p >= lighting.normals.size();
     if (stand_in && !surfaces) surfaces.emplace(room, blocks);
     LitPart& part =
-        parts.emplace_back(LitPart{room, field, options, room.parts[p], *normals[p], stand_in ? &*surfaces : nullptr, lamps, {}, {}});
+        parts.emplace_back(LitPart{room, lighting, options, room.parts[p], *normals[p], stand_in ? &*surfaces : nullptr, lamps, {}, {}});
     baked.counts.points += light_vertices(part, executor, progress);
     blocks.push_back(blocks_of(room, static_cast<std::uint32_t>(p), part.normals));
     first.push_back(lamps.size());
@@ -399,7 +399,8 @@ Result<Baked> bake(const place::PlacedRoom& room, const light::LightField& field
     });
   }
   std::vector<LightGrid> passed;
-  if (field.options.passes > 0) passed = pass_on({room, field, normals, blocks, lamps}, options.passing, executor, progress);
+  if (lighting.options.indirect_bounces > 0)
+    passed = pass_on({room, lighting, normals, blocks, lamps}, options.passing, executor, progress);
   std::vector<BakedBlock> finished(lamps.size());
   for (std::size_t p = 0; p < room.parts.size(); ++p)
     executor(blocks[p].size(), [&](std::size_t i) {

@@ -4,7 +4,7 @@
 #include "compiler/bake/passing.h"
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 
 namespace orbc::bake {
 
@@ -54,7 +54,7 @@ struct Baked {
   std::vector<std::vector<Block>> blocks;
   std::vector<std::vector<Box>> boxes;  ///< parallel: where in the picture
 };
-[[nodiscard]] Result<Baked> bake(const place::PlacedRoom& room, const light::LightField& field, const BakeOptions& options,
+[[nodiscard]] Result<Baked> bake(const place::PlacedRoom& room, const light::LightingContext& lighting, const BakeOptions& options,
                                  const Executor& executor, const Progress& progress = {});
 
 }  // namespace orbc::bake

@@ -17,37 +17,37 @@ EyeImage image_of(const cover::Copy& copy, const place::Eye& eye) {
           copy.sheet};
 }
 
-light::Way way_to(const EyeImage& eye, const Position& from) { return light::way_to(eye.space, from, eye.at, eye.sheet); }
+light::Connection connect(const EyeImage& eye, const Position& from) { return light::connect(eye.space, from, eye.at, eye.sheet); }
 
-double pixels_per_unit(const EyeImage& eye, const light::Way& sight, double per_radian) {
+double pixels_per_unit(const EyeImage& eye, const light::Connection& sight, double per_radian) {
   const double across = std::fabs(geometry::sin_k(eye.space, sight.arc));
   return per_radian * std::max(1 / std::max(sight.length, 1e-3), sight.arc / std::max(sight.length, 1e-3) / std::max(across, 1e-2));
 }
 
-double pixels_along(const EyeImage& eye, const light::Way& sight, const Position& at, const Direction& side, double per_radian) {
+double pixels_along(const EyeImage& eye, const light::Connection& sight, const Position& at, const Direction& side, double per_radian) {
   const double k = geometry::curvature(eye.space);
   const Direction foot{at.floor, 0};
   const Direction tangent = side + -k * trace::inner(eye.space, side, foot) * foot;
   const double size = std::sqrt(trace::inner(eye.space, tangent, tangent));
   if (size < 1e-12) return 0;
-  const Direction along = (1 / size) * tangent, level{sight.start.floor, 0}, flat{along.floor, 0};
+  const Direction along = (1 / size) * tangent, level{sight.direction.floor, 0}, flat{along.floor, 0};
   const double c = std::sqrt(std::max(0.0, trace::inner(eye.space, level, level)));
   const double ahead = c < 1e-9 ? 0 : trace::inner(eye.space, flat, level) / c;
   const double across = std::sqrt(std::max(0.0, trace::inner(eye.space, flat, flat) - ahead * ahead));
   const double stretch = sight.arc < 0.01 ? 1 : sight.arc / std::max(std::fabs(geometry::sin_k(eye.space, sight.arc)), 0.01);
-  const double upright = std::max(std::fabs(ahead * sight.start.z - along.z * c), 0.3 * math::hypot(ahead, along.z));
+  const double upright = std::max(std::fabs(ahead * sight.direction.z - along.z * c), 0.3 * math::hypot(ahead, along.z));
   return per_radian * math::hypot(across * stretch, upright) / std::max(sight.length, 1e-3);
 }
 
 std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera, const Position& point) {
   const EyeImage eye = image_of(copy, camera);
-  const light::Way sight = light::way_to(eye.space, eye.at, point, eye.sheet);
-  if (!sight.exists) return std::nullopt;
-  const trace::Direction floor{sight.start.floor, 0};
+  const light::Connection sight = light::connect(eye.space, eye.at, point, eye.sheet);
+  if (!sight.valid) return std::nullopt;
+  const trace::Direction floor{sight.direction.floor, 0};
   const double c = std::sqrt(std::max(0.0, trace::inner(eye.space, floor, floor)));
-  const double z = copy.storey.sign * sight.start.z;
+  const double z = copy.storey.sign * sight.direction.z;
   if (c < 1e-9) return geometry::Vector3{0, 0, z};
-  const geometry::Tangent in_room = geometry::normalised_tangent(eye.space, eye.at.floor, sight.start.floor);
+  const geometry::Tangent in_room = geometry::normalised_tangent(eye.space, eye.at.floor, sight.direction.floor);
   const geometry::Tangent t = geometry::inverse(camera.room_from_eye) * (copy.cover_from_room * in_room);
   return geometry::Vector3{c * t.x, c * t.y, z};
 }
@@ -67,7 +67,7 @@ bool beside_picture(const place::Eye& camera, const std::vector<geometry::Vector
 }
 
 trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const Position& at) {
-  return way_to(image_of(copy, eye), at).start;
+  return connect(image_of(copy, eye), at).direction;
 }
 
 }  // namespace orbc::bake

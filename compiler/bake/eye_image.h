@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "compiler/cover/copy.h"
-#include "compiler/light/way.h"
+#include "compiler/light/connection.h"
 #include "compiler/place/eye.h"
 
 namespace orbc::bake {
@@ -16,17 +16,17 @@ struct EyeImage {
 };
 
 [[nodiscard]] EyeImage image_of(const cover::Copy& copy, const place::Eye& eye);
-[[nodiscard]] light::Way way_to(const EyeImage& eye, const geometry::Position& from);
+[[nodiscard]] light::Connection connect(const EyeImage& eye, const geometry::Position& from);
 
 /// What one unit of length takes in the picture, at most: things stand across the sight, on the floor or upright.
 /// In: the sight from the point to the eye; pixels per radian.
-[[nodiscard]] double pixels_per_unit(const EyeImage& eye, const light::Way& sight, double per_radian);
+[[nodiscard]] double pixels_per_unit(const EyeImage& eye, const light::Connection& sight, double per_radian);
 
 /// What one unit of length along `side` (any length) takes in the picture where it starts. In the map of the eye (the log map) lengths
 /// across the geodesic grow by arc/sinκ(arc), those along it and upright stay. Something of what the sight foreshortens is kept: the
 /// surface bends.
-[[nodiscard]] double pixels_along(const EyeImage& eye, const light::Way& sight, const geometry::Position& at, const trace::Direction& side,
-                                  double per_radian);
+[[nodiscard]] double pixels_along(const EyeImage& eye, const light::Connection& sight, const geometry::Position& at,
+                                  const trace::Direction& side, double per_radian);
 
 /// Where the eye sees a point of a copy, in eye coordinates: the other end of the sight. Nothing: in all directions at once.
 [[nodiscard]] std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera,

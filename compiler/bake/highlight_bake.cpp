@@ -16,9 +16,9 @@
 #include "compiler/bake/shiny_parts.h"
 #include "compiler/base/elementary.h"
 #include "compiler/image/srgb.h"
-#include "compiler/light/way.h"
+#include "compiler/light/connection.h"
 #include "compiler/place/texel.h"
-#include "compiler/surface/lobe.h"
+#include "compiler/surface/ggx.h"
 
 namespace orbc::bake {
 namespace {
@@ -44,7 +44,7 @@ struct BakedHighlightBlock {
 
 struct Job {
   const place::PlacedRoom& room;
-  const light::LightField& field;
+  const light::LightingContext& lighting;
   const HighlightOptions& options;
   const Baked& baked;
   const surface::PartNormals& normals;
@@ -70,7 +70,7 @@ class PartShine {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       stop_if_cancelled(job_.progress);
       const place::Look& look = job_.room.looks[mesh_.look[blocks_[i].first]];
-      whole_ = job_.options.seen_in && shows_room(look.material, job_.field.lit);
+      whole_ = job_.options.seen_in && shows_room(look.material, job_.lighting.lit);
       if (!whole_ && !shines(look.material)) continue;
       holes_ = place::has_holes(look);
       if (auto finished = bake_block(i, look)) done.push_back(std::move(*finished));
@@ -88,22 +88,22 @@ class PartShine {
     }
   };
 
-  Color shine(const surface::LightPoint& point, const scene::Material& material, const light::Turn& turn = {}) {
-    const light::Way sight = way_to(job_.eye, point.at);
-    if (!sight.exists) return {};
-    if (whole_) return job_.options.seen_in(point.at, turned_out(point, sight.start), job_.copy, job_.beside, turn);
-    return job_.field.exposure * light::highlight(job_.field, point, sight.start, material, {1, 1, 1});
+  Color shine(const surface::ShadingPoint& point, const scene::Material& material, const light::SampleStratum& stratum = {}) {
+    const light::Connection sight = connect(job_.eye, point.at);
+    if (!sight.valid) return {};
+    if (whole_) return job_.options.seen_in(point.at, turned_out(point, sight.direction), job_.copy, job_.beside, stratum);
+    return job_.lighting.exposure * light::highlight(job_.lighting, point, sight.direction, material, {1, 1, 1});
   }
   // A metal's lobe is seen by many ways. What shows detail in it is asked again by `soften`, all ways between its points: so that a part of
   // them is enough here, the second, in the middle between the sharpest and the widest.
-  [[nodiscard]] light::Turn at_single_points(const scene::Material& material) const {
+  [[nodiscard]] light::SampleStratum at_single_points(const scene::Material& material) const {
     const int parts = job_.options.rays_per_texel * job_.options.rays_per_texel;
-    if (parts < 2 || material.kind != scene::MaterialKind::metal || surface::facet_width(material) >= kRough) return {};
+    if (parts < 2 || material.kind != scene::MaterialKind::metal || surface::ggx_alpha(material) >= kRough) return {};
     return {1, parts};
   }
   /// Where a block turns away from the eye there is nothing to be seen; what is asked there shall continue what is seen at the outline.
-  [[nodiscard]] Direction turned_out(const surface::LightPoint& point, Direction to_eye) const {
-    for (const Direction& n : {point.normal, point.flat})
+  [[nodiscard]] Direction turned_out(const surface::ShadingPoint& point, Direction to_eye) const {
+    for (const Direction& n : {point.normal, point.geometric_normal})
       if (const double facing = trace::inner(job_.eye.space, to_eye, n); facing < kGraze) to_eye = to_eye + (kGraze - facing) * n;
     return (1 / std::sqrt(trace::inner(job_.eye.space, to_eye, to_eye))) * to_eye;
   }
@@ -125,8 +125,8 @@ class PartShine {
     const std::uint32_t v = normals_.corners[t][static_cast<std::size_t>(k)];
     const int number = mesh_.look[t];
     if (known_[v] == number) return at_vertex_[v];
-    surface::LightPoint point = surface::light_point(job_.room, mesh_, normals_, t, surface::near_corner(static_cast<std::size_t>(k)));
-    if (stand_in() && !whole_) point = light::on_surface(job_.field, point, light::kOnVertex).point;
+    surface::ShadingPoint point = surface::shading_point(job_.room, mesh_, normals_, t, surface::inset_corner(static_cast<std::size_t>(k)));
+    if (stand_in() && !whole_) point = light::project_to_surface(job_.lighting, point, light::kVertexTolerance).point;
     at_vertex_[v] = shine(point, look.material, at_single_points(look.material));
     known_[v] = number;
     return at_vertex_[v];
@@ -136,13 +136,13 @@ class PartShine {
     const bool end_u = i == 0 || i == grid.w - 1, end_v = j == 0 || j == grid.h - 1;
     if (end_u && end_v) return corner(block, look, i > 0, j > 0);
     const double u = static_cast<double>(i) / (grid.w - 1), v = static_cast<double>(j) / (grid.h - 1);
-    const InTriangle at = within_block(block, u, v, surface::kWithin);
-    surface::LightPoint point = surface::light_point(job_.room, mesh_, normals_, at.triangle, at.b);
-    if (stand_in() && !whole_) point = light::on_surface(job_.field, point, std::max(block.length_u, block.length_v) / 2).point;
+    const InTriangle at = within_block(block, u, v, surface::kInset);
+    surface::ShadingPoint point = surface::shading_point(job_.room, mesh_, normals_, at.triangle, at.b);
+    if (stand_in() && !whole_) point = light::project_to_surface(job_.lighting, point, std::max(block.length_u, block.length_v) / 2).point;
     return shine(point, look.material, at_single_points(look.material));
   }
   /// A coarser level: what shines is the part itself (seen_in puts its points there by itself).
-  [[nodiscard]] bool stand_in() const { return job_.field.lit && job_.part >= job_.field.normals.size(); }
+  [[nodiscard]] bool stand_in() const { return job_.lighting.lit && job_.part >= job_.lighting.normals.size(); }
 
   static bool valid(const Block& block, const Grid& grid, int i, int j) { return on_block(block, i, j, grid.w, grid.h); }
 
@@ -165,11 +165,11 @@ class PartShine {
     for (int c = 0; c < (block.second >= 0 ? 4 : 3); ++c) {
       const surface::ShadingVertex& corner = corner_of(c);
       const Position at{mesh_.floor[corner.vertex], mesh_.z[corner.vertex]};
-      const light::Way sight = way_to(job_.eye, at);
+      const light::Connection sight = connect(job_.eye, at);
       const auto seen = direction_from_eye(job_.copy, job_.camera, at);
-      if (!sight.exists || !seen) continue;
+      if (!sight.valid || !seen) continue;
       directions.push_back(*seen);
-      towards = towards || trace::inner(job_.eye.space, sight.start, corner.normal) > 0;
+      towards = towards || trace::inner(job_.eye.space, sight.direction, corner.normal) > 0;
       most[0] = std::max(most[0], block.length_u * pixels_along(job_.eye, sight, at, u, job_.per_radian));
       most[1] = std::max(most[1], block.length_v * pixels_along(job_.eye, sight, at, v, job_.per_radian));
     }
@@ -241,7 +241,7 @@ class PartShine {
             u = std::max(0.0, u - out), v = std::max(0.0, v - out);
           }
           const InTriangle at = in_triangle(block, u, v);
-          sum = sum + shine(surface::light_point(job_.room, mesh_, normals_, at.triangle, at.b), look.material, {k, side * side});
+          sum = sum + shine(surface::shading_point(job_.room, mesh_, normals_, at.triangle, at.b), look.material, {k, side * side});
         }
         soft[grid.index(i, j)] = (1.0 / (side * side)) * sum;
       }
@@ -353,7 +353,7 @@ struct Shining {
 
 std::vector<std::size_t> nearest_first(const std::vector<cover::Copy>& copies, const place::Eye& eye) {
   std::vector<double> distance;
-  for (const cover::Copy& copy : copies) distance.push_back(way_to(image_of(copy, eye), {geometry::Point(), eye.z}).length);
+  for (const cover::Copy& copy : copies) distance.push_back(connect(image_of(copy, eye), {geometry::Point(), eye.z}).length);
   std::vector<std::size_t> order(copies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return distance[a] < distance[b]; });
@@ -387,11 +387,11 @@ HighlightOptions highlight_options(const scene::BakeSpec& spec) {
   return options;
 }
 
-Highlights bake_highlights(const place::PlacedRoom& room, const light::LightField& field, const std::vector<cover::Copy>& copies,
+Highlights bake_highlights(const place::PlacedRoom& room, const light::LightingContext& lighting, const std::vector<cover::Copy>& copies,
                            const DrawnParts& drawn, const place::Eye& eye, const HighlightOptions& options, Baked& baked,
                            const Executor& executor, const Progress& progress) {
   Highlights result;
-  const std::vector<ShinyPart> parts = shiny_parts(room, field, drawn, static_cast<bool>(options.seen_in));
+  const std::vector<ShinyPart> parts = shiny_parts(room, lighting, drawn, static_cast<bool>(options.seen_in));
   const double per_radian = place::pixels_per_radian(eye);
   std::vector<Shining> all;
   const std::vector<std::size_t> order = nearest_first(copies, eye);
@@ -406,16 +406,16 @@ Highlights bake_highlights(const place::PlacedRoom& room, const light::LightFiel
       shining.copy = order[from + i / parts.size()], shining.part = part.part;
       if (!part.in_model.empty() && !part.in_model[drawn.model_of_copy[shining.copy]]) return;
       const cover::Copy& copy = copies[shining.copy];
-      const surface::PartNormals& normals = part.part < field.normals.size() ? field.normals[part.part] : part.own;
-      const Job job{room,        field,      options,
+      const surface::PartNormals& normals = part.part < lighting.normals.size() ? lighting.normals[part.part] : part.own;
+      const Job job{room,        lighting,   options,
                     baked,       normals,    shining.part,
                     copy,        eye,        image_of(copy, eye),
                     copy.weight, per_radian, shining.part < drawn.beside.size() ? drawn.beside[shining.part] : 0,
                     progress};
       const Ball& ball = part.ball;
-      const light::Way sight = way_to(job.eye, ball.centre);
+      const light::Connection sight = connect(job.eye, ball.centre);
       const bool near = sight.length < 2 * ball.radius;
-      if (!near && sight.exists && 2 * ball.radius * pixels_per_unit(job.eye, sight, per_radian) < part.smallest_px) return;
+      if (!near && sight.valid && 2 * ball.radius * pixels_per_unit(job.eye, sight, per_radian) < part.smallest_px) return;
       PartShine shine(job);
       shining.blocks = shine.run();
     });

@@ -10,11 +10,11 @@
 namespace orbc::bake {
 
 /// What the eye sees in a mirror, glass or metal object: at a point of the room near its surface, in a copy; `to_eye` is the unit direction
-/// there in which the eye lies; `beside`: how far the point may lie beside that surface (coarser levels); `turn`: of several points that
+/// there in which the eye lies; `beside`: how far the point may lie beside that surface (coarser levels); `stratum`: of several points that
 /// are one texel.
 /// Makes: colour × exposure as the copy's texture shows it, so without the copy's weight. Thread-safe.
 using SeenIn = std::function<scene::Color(const geometry::Position& at, const trace::Direction& to_eye, const cover::Copy& copy,
-                                          double beside, const light::Turn& turn)>;
+                                          double beside, const light::SampleStratum& stratum)>;
 
 struct HighlightOptions {
   SeenIn seen_in;                         ///< none: mirror, glass and metal objects keep their plain colours
@@ -55,7 +55,7 @@ struct Highlights {
 };
 
 /// Whether a room has surfaces whose light depends on where the eye is: mirror, glass and metal, and in a field with lamps glossy ones.
-[[nodiscard]] bool needs_highlights(const place::PlacedRoom& room, const light::LightField& field);
+[[nodiscard]] bool needs_highlights(const place::PlacedRoom& room, const light::LightingContext& lighting);
 
 /// Bakes what glossy surfaces send to the given eye, and what it sees in mirror, glass and metal objects, for every copy by itself: as
 /// seen from a copy, the eye is its image under that copy's inverse map.
@@ -64,7 +64,7 @@ struct Highlights {
 ///        copy is far away; all others, and far copies, keep the diffuse ones. Places in the shared atlas are moved to the new size. Same
 ///        bytes for any executor.
 /// Error: colours add up in the 8 bits of the atlas; `tolerance` besides.
-[[nodiscard]] Highlights bake_highlights(const place::PlacedRoom& room, const light::LightField& field,
+[[nodiscard]] Highlights bake_highlights(const place::PlacedRoom& room, const light::LightingContext& lighting,
                                          const std::vector<cover::Copy>& copies, const DrawnParts& drawn, const place::Eye& eye,
                                          const HighlightOptions& options, Baked& baked, const Executor& executor,
                                          const Progress& progress = {});

@@ -5,16 +5,16 @@
 #include <cmath>
 
 #include "compiler/base/elementary.h"
-#include "compiler/light/way.h"
+#include "compiler/light/connection.h"
 
 namespace orbc::bake {
 
 using scene::Color;
 
 PointToLight point_to_light(const LitPart& part, std::size_t triangle, const std::array<double, 3>& b, double reach) {
-  PointToLight asked{surface::light_point(part.room, part.mesh, part.normals, triangle, b), {}};
+  PointToLight asked{surface::shading_point(part.room, part.mesh, part.normals, triangle, b), {}};
   if (!part.surfaces) return asked;
-  const light::OnSurface foot = light::on_surface(part.field, asked.point, reach);
+  const light::SurfaceProjection foot = light::project_to_surface(part.lighting, asked.point, reach);
   asked.point = foot.point;
   if (const OnBlock on = part.surfaces->stood_for(foot.hit, part.mesh.look[triangle]); on.block >= 0)
     asked.known = light_at(part.lamps[static_cast<std::size_t>(on.block)], on.u, on.v);
@@ -47,17 +47,17 @@ std::uint64_t light_vertices(LitPart& part, const Executor& executor, const Prog
       const geometry::Position p = position(i);
       radius = std::max(radius, math::hypot(geometry::distance(part.room.room.space, centre.floor, p.floor), p.z - centre.z));
     }
-    const std::vector<std::uint32_t> near = light::images_near(part.field, centre, radius);
+    const std::vector<std::uint32_t> near = light::images_within(part.lighting, centre, radius);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       if (lit[i].k > 2) continue;
-      const PointToLight asked = point_to_light(part, lit[i].triangle, surface::near_corner(lit[i].k), light::kOnVertex);
+      const PointToLight asked = point_to_light(part, lit[i].triangle, surface::inset_corner(lit[i].k), light::kVertexTolerance);
       if (asked.known) {
         part.at_vertex[i] = *asked.known;
         continue;
       }
       ++count;
-      part.at_vertex[i] = light::irradiance(part.field, asked.point, near);
-      part.blind_vertex[i] = part.at_vertex[i] == Color{} && light::covered(part.field, asked.point);
+      part.at_vertex[i] = light::irradiance(part.lighting, asked.point, near);
+      part.blind_vertex[i] = part.at_vertex[i] == Color{} && light::is_enclosed(part.lighting, asked.point);
     }
     if (chunk % 16 == 0) report(progress, "baking", done.fetch_add(16 * kChunk), part.at_vertex.size(), "points");
   });

@@ -14,7 +14,7 @@ namespace orbc::bake {
 /// A part of a room on its way through the bake.
 struct LitPart {
   const place::PlacedRoom& room;
-  const light::LightField& field;
+  const light::LightingContext& lighting;
   const BakeOptions& options;
   const place::PlacedMesh& mesh;
   const surface::PartNormals& normals;
@@ -26,7 +26,7 @@ struct LitPart {
 
 /// A point to be lit, or its light.
 struct PointToLight {
-  surface::LightPoint point;
+  surface::ShadingPoint point;
   std::optional<scene::Color> known;
 };
 /// A point of a triangle; points of a coarser level have the light of the surface there. In: how far off that may be.

@@ -6,10 +6,11 @@
 #include <numbers>
 
 #include "compiler/bake/surface_map.h"
+#include "compiler/light/connection.h"
 #include "compiler/light/guide.h"
-#include "compiler/light/leg.h"
-#include "compiler/light/way.h"
-#include "compiler/surface/frame.h"
+#include "compiler/light/light_path.h"
+#include "compiler/surface/albedo.h"
+#include "compiler/surface/tangent_frame.h"
 
 namespace orbc::bake {
 namespace {
@@ -30,7 +31,7 @@ struct Link {
   std::array<float, 3> weight{};  ///< of what the surface there has been passed
 };
 struct Node {
-  surface::LightPoint at;
+  surface::ShadingPoint at;
   Color given;                       ///< from surfaces under their lamps, from those that glow, from the background
   Color passed;                      ///< all that surfaces pass on to it
   bool blind = false;                ///< sees the inside of things
@@ -49,7 +50,7 @@ class Net {
     for (std::size_t p = 0; p < s_.room.parts.size(); ++p) {
       const surface::PartNormals& normals = *s_.normals[p];
       const std::size_t vertices = nodes_.size();
-      const bool stand_in = p >= s_.field.normals.size();
+      const bool stand_in = p >= s_.lighting.normals.size();
       add_vertices(s_.room.parts[p], normals, stand_in);
       for (const Block& block : s_.blocks[p]) add_block(s_.room.parts[p], normals, block, vertices, stand_in);
     }
@@ -82,8 +83,8 @@ class Net {
     for (Node& node : nodes_) node.passed = node.given;
     spread_to_blind();
     constexpr std::size_t kChunk = 256;
-    const double enough = kSettled / std::max(s_.field.exposure, 1e-300);
-    for (int pass = 1; pass < s_.field.options.passes; ++pass) {
+    const double enough = kSettled / std::max(s_.lighting.exposure, 1e-300);
+    for (int pass = 1; pass < s_.lighting.options.indirect_bounces; ++pass) {
       const std::vector<LightGrid> before = grids();
       std::vector<Color> next(nodes_.size());
       executor((nodes_.size() + kChunk - 1) / kChunk, [&](std::size_t c) {
@@ -151,35 +152,35 @@ class Net {
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) corner[normals.corners[t][k]] = {t, k};
     for (std::size_t v = 0; v < normals.vertices.size(); ++v) {
-      surface::LightPoint point = surface::light_point(s_.room, part, normals.vertices[v]);
-      double reach = light::kOnVertex;
+      surface::ShadingPoint point = surface::shading_point(s_.room, part, normals.vertices[v]);
+      double reach = light::kVertexTolerance;
       if (around[v].count > 0) {
-        const surface::Frame frame = surface::frame_at(space, point.at.floor);
+        const surface::TangentFrame frame = surface::tangent_frame(space, point.at.floor);
         const double share = 1.0 / around[v].count;
-        const geometry::Vector3 n = surface::local(space, frame, point.normal);
+        const geometry::Vector3 n = surface::to_local(space, frame, point.normal);
         const geometry::Vector3 to =
-            surface::local(space, frame, {share * around[v].floor - point.at.floor, share * around[v].z - point.at.z});
+            surface::to_local(space, frame, {share * around[v].floor - point.at.floor, share * around[v].z - point.at.z});
         const geometry::Vector3 along = to - dot(to, n) * n;
         const double length = geometry::length(along), step = std::min(kInside * length, kInside / options_.density);
-        if (length > 1e-9) point.at = point.origin = surface::exponential(space, point.at, frame, (step / length) * along);
+        if (length > 1e-9) point.at = point.ray_origin = surface::exponential(space, point.at, frame, (step / length) * along);
         reach = std::max(reach, step);
       }
       const auto [t, k] = corner[v];
       add_node(point, stand_in ? reach : 0, part.look[t]);
       if (!stand_in) continue;
       // It is a vertex of the surface, too, and has the light of that vertex.
-      const light::OnSurface foot =
-          light::on_surface(s_.field, surface::light_point(s_.room, part, normals, t, surface::near_corner(k)), light::kOnVertex);
+      const light::SurfaceProjection foot = light::project_to_surface(
+          s_.lighting, surface::shading_point(s_.room, part, normals, t, surface::inset_corner(k)), light::kVertexTolerance);
       if (const OnBlock on = map_.stood_for(foot.hit, part.look[t]); on.block >= 0) nodes_.back().stands_for = on;
     }
   }
 
   // In: of stand-ins, how far off their surface it may be.
-  void add_node(const surface::LightPoint& point, double reach, std::uint16_t look) {
+  void add_node(const surface::ShadingPoint& point, double reach, std::uint16_t look) {
     Node& node = nodes_.emplace_back();
     node.at = point;
     if (reach == 0) return;
-    const light::OnSurface foot = light::on_surface(s_.field, point, reach);
+    const light::SurfaceProjection foot = light::project_to_surface(s_.lighting, point, reach);
     node.at = foot.point;
     node.stands_for = map_.stood_for(foot.hit, look);
   }
@@ -208,9 +209,9 @@ class Net {
           mesh.node.push_back(static_cast<std::int32_t>(vertices + normals.corners[t][static_cast<std::size_t>(k)]));
         } else {
           const InTriangle at =
-              within_block(block, static_cast<double>(i) / (mesh.w - 1), static_cast<double>(j) / (mesh.h - 1), surface::kWithin);
+              within_block(block, static_cast<double>(i) / (mesh.w - 1), static_cast<double>(j) / (mesh.h - 1), surface::kInset);
           mesh.node.push_back(static_cast<std::int32_t>(nodes_.size()));
-          add_node(surface::light_point(s_.room, part, normals, at.triangle, at.b),
+          add_node(surface::shading_point(s_.room, part, normals, at.triangle, at.b),
                    stand_in ? std::max(block.length_u, block.length_v) / 2 : 0, part.look[at.triangle]);
         }
       }
@@ -219,7 +220,7 @@ class Net {
 
   // Sends a node's directions out; its links start at node.first of `links`.
   void ask(Node& node, std::size_t id, std::vector<Link>& links) const {
-    const light::Guide guide = light::guide_at(s_.field, node.at);
+    const light::Guide guide = light::guide_at(s_.lighting, node.at);
     node.first = links.size();
     surface::Random random(id);
     Asked asked;
@@ -235,29 +236,29 @@ class Net {
 
   void ask_some(const light::Guide& guide, int from, int to, surface::Random& random, Node& node, std::vector<Link>& links,
                 Asked& asked) const {
-    const light::LightField& field = s_.field;
+    const light::LightingContext& lighting = s_.lighting;
     std::vector<trace::Ray> rays;
     std::vector<double> weights;
     std::vector<bool> linked;
     for (int k = from; k < to; ++k) {
-      const light::Chosen chosen = light::choose(guide, surface::r3_point(k));
+      const light::DirectionSample chosen = light::sample_direction(guide, surface::r3_point(k));
       if (chosen.weight <= 0) continue;
-      rays.push_back(light::leaving(field, node.at, chosen.direction));
+      rays.push_back(light::spawn_ray(lighting, node.at, chosen.direction));
       weights.push_back(chosen.weight / options_.samples);
       linked.push_back(k % linked_ == 0);
     }
-    std::vector<trace::Path> paths = trace::follow(field.scene, rays, light::Leg{s_.room, field, random, {}, {}, {}, {}}.follow_options());
+    std::vector<trace::Path> paths = trace::follow(lighting.scene, rays, light::path_follow_options(lighting));
     asked.all += static_cast<int>(paths.size());
     const double carry = static_cast<double>(options_.samples) / ((options_.samples + linked_ - 1) / linked_);
     for (std::size_t k = 0; k < paths.size(); ++k) {
-      light::Leg leg{s_.room, field, random, {}, {weights[k], weights[k], weights[k]}, {}, {}};
-      const bool ends = leg.arrive(std::move(paths[k]));
-      node.given = node.given + leg.sum;
-      asked.inside += ends && !leg.point.outside;
-      if (!ends) continue;
-      const OnBlock place = map_.find(leg.point, leg.hit);
-      const Color weight = leg.weight * surface::surface_color(s_.room, leg.point);
-      Color shown = field.ambient;
+      const light::LightPath start{{}, {weights[k], weights[k], weights[k]}, {}};
+      const light::LightPath path = light::extend_path(s_.room, lighting, start, std::move(paths[k]), random);
+      node.given = node.given + path.radiance;
+      if (!path.end) continue;
+      asked.inside += !path.end->point.outside;
+      const OnBlock place = map_.find(path.end->point, path.end->hit);
+      const Color weight = path.throughput * surface::hit_albedo(s_.room, path.end->point);
+      Color shown = lighting.ambient;
       if (place.block >= 0)
         shown = shown + (1 / std::numbers::pi) * light_at(s_.direct[static_cast<std::size_t>(place.block)], place.u, place.v);
       node.given = node.given + weight * shown;

@@ -3,14 +3,14 @@
 #include "compiler/bake/light_grid.h"
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 
 namespace orbc::bake {
 
 /// The surfaces of a room with what its lamps give them.
 struct LitSurfaces {
   const place::PlacedRoom& room;
-  const light::LightField& field;
+  const light::LightingContext& lighting;
   const std::vector<const surface::PartNormals*>& normals;  ///< per part
   const std::vector<std::vector<Block>>& blocks;            ///< per part
   const std::vector<LightGrid>& direct;                     ///< irradiance from lamps; of all blocks in the order of the parts

@@ -6,7 +6,7 @@
 #include "compiler/base/elementary.h"
 #include "compiler/image/srgb.h"
 #include "compiler/surface/albedo.h"
-#include "compiler/surface/random.h"
+#include "compiler/surface/sampling.h"
 
 namespace orbc::bake {
 namespace {

@@ -24,7 +24,7 @@ struct ShinyPart {
 [[nodiscard]] bool shines(const scene::Material& material);
 
 /// In: whether one can ask what is seen in mirrors, glass and metals.
-[[nodiscard]] std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const light::LightField& field, const DrawnParts& drawn,
-                                                 bool seen_in);
+[[nodiscard]] std::vector<ShinyPart> shiny_parts(const place::PlacedRoom& room, const light::LightingContext& lighting,
+                                                 const DrawnParts& drawn, bool seen_in);
 
 }  // namespace orbc::bake

@@ -17,7 +17,7 @@
 #include "compiler/driver/unlit.h"
 #include "compiler/image_io/decode.h"
 #include "compiler/image_io/exr.h"
-#include "compiler/render/path.h"
+#include "compiler/render/indirect.h"
 
 namespace orbc::cli {
 namespace {
@@ -65,7 +65,7 @@ render::Pass pass_of(const std::string& name) {
 // What chance has left in a path-traced picture.
 std::string noise_text(const render::Film& film, double exposure) {
   if (film.error.empty()) return "";
-  return fmt::format("; noise {:.1f}/255, less with more --samples", render::noise_of(film, exposure));
+  return fmt::format("; noise {:.1f}/255, less with more --samples", render::rms_noise(film, exposure));
 }
 
 nlohmann::ordered_json result_of(const RenderArguments& a, PictureFormat format, const place::Eye& eye) {
@@ -99,7 +99,7 @@ int render_here(const driver::Opened& opened, const RenderArguments& a, PictureF
   bar.clear();
   nlohmann::ordered_json result = result_of(a, format, opened.eye);
   result["pass"] = format == PictureFormat::exr ? "all" : a.pass;
-  if (!film.error.empty()) result["noise"] = render::noise_of(film, opened.scene.exposure);
+  if (!film.error.empty()) result["noise"] = render::rms_noise(film, opened.scene.exposure);
   print_result(std::move(result), opened.notes, common);
   if (!common.quiet)
     fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,

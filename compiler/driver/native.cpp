@@ -11,10 +11,10 @@
 #include "compiler/bend/log_map.h"
 #include "compiler/cover/beam.h"
 #include "compiler/driver/product_normals.h"
-#include "compiler/light/image.h"
 #include "compiler/light/lamp.h"
-#include "compiler/light/shade.h"
-#include "compiler/surface/frame.h"
+#include "compiler/light/lamp_image.h"
+#include "compiler/light/lighting.h"
+#include "compiler/surface/tangent_frame.h"
 
 namespace orbc::driver {
 namespace {
@@ -50,18 +50,18 @@ struct Shape {
 };
 
 // The samples of a lamp's design (lamp.cpp) are (±a, ±b): differences of them are its sides.
-Shape shape_of(Space space, const light::HungLamp& lamp, const light::LampImage& image) {
+Shape shape_of(Space space, const light::PlacedLamp& lamp, const light::LampImage& image) {
   Shape shape;
   shape.middle = image.samples[0];
-  const surface::Frame frame = surface::frame_at(space, shape.middle.floor);
+  const surface::TangentFrame frame = surface::tangent_frame(space, shape.middle.floor);
   const auto beside = [&](const Vector3& v) { return surface::exponential(space, shape.middle, frame, v); };
-  const Vector3 axis = surface::local(space, frame, image.axes[0]);
+  const Vector3 axis = surface::to_local(space, frame, image.axes[0]);
   shape.along = beside(1e-3 * axis);
   if (image.samples.size() < 5) return shape;
   shape.extended = true;
   const auto offset = [&](std::size_t i) {
     const trace::Segment s = trace::segment_between(space, shape.middle, image.samples[i]);
-    return s.length * surface::local(space, frame, {s.ray.c * s.ray.along, s.ray.m});
+    return s.length * surface::to_local(space, frame, {s.ray.c * s.ray.along, s.ray.m});
   };
   Vector3 across{lamp.radius, 0, 0}, other{0, lamp.radius, 0};
   if (lamp.kind == LampKind::rectangle || lamp.kind == LampKind::disk) {
@@ -92,7 +92,7 @@ MirrorWeight weight_of(const place::PlacedRoom& room) {
   return mean;
 }
 
-NativeLamp lamp_in(const IntoCopy& eye_from_room, const light::HungLamp& lamp, const Shape& shape) {
+NativeLamp lamp_in(const IntoCopy& eye_from_room, const light::PlacedLamp& lamp, const Shape& shape) {
   NativeLamp made;
   made.kind = lamp.kind;
   made.fades = lamp.falloff != scene::Falloff::none;
@@ -158,16 +158,16 @@ Opened unlit_twin(const Opened& opened) {
 
 Shine shine_of(const place::PlacedRoom& room, const place::PlacedMesh& part) {
   if (part.look.empty() || !glows(room, part.look[0])) return Shine::lit;
-  return light::lamp_of(part) >= 0 || part.kind != place::PartKind::object ? Shine::lamp : Shine::glowing;
+  return light::lamp_of_part(part) >= 0 || part.kind != place::PartKind::object ? Shine::lamp : Shine::glowing;
 }
 
 Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy>& copies, Product& product, const Executor& executor) {
   const place::PlacedRoom& room = *opened.room;
   const Space space = room.room.space;
-  const auto hung = light::hang_lamps(opened.scene, room.room);
+  const auto hung = light::place_lamps(opened.scene, room.room);
   if (!hung) return hung.error();
   const light::LightOptions options = light::light_options(opened.scene);
-  const auto found = light::lamp_images(hung->lamps, room, {options.bounces, opened.scene.exposure, options.cut});
+  const auto found = light::lamp_images(hung->lamps, room, {options.bounces, opened.scene.exposure, options.cull_below});
   if (!found) return located(found.error(), opened.scene.bake.mirrors_span);
   const std::vector<light::LampImage>& images = *found;
   const auto lit = static_cast<std::size_t>(
@@ -189,12 +189,12 @@ Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy
     const IntoCopy into{{space, geometry::matrix(geometry::inverse(opened.eye.room_from_eye) * copies[c].cover_from_room), copies[c].sheet},
                         copies[c].storey};
     for (std::size_t i = 0; i < images.size(); ++i) {
-      const light::HungLamp& lamp = hung->lamps[static_cast<std::size_t>(images[i].lamp)];
+      const light::PlacedLamp& lamp = hung->lamps[static_cast<std::size_t>(images[i].lamp)];
       NativeLamp made = lamp_in(into, lamp, shapes[i]);
       made.copy = c, made.own = images[i].bounces == 0;
       scene::Color weight = copies[c].weight;
       for (int k = 0; k < images[i].bounces; ++k) weight = weight * mirror.color;
-      const double gain = lamp.kind == LampKind::tube ? 1 : lamp.gain;
+      const double gain = lamp.kind == LampKind::tube ? 1 : lamp.peak_intensity;
       made.intensity = (opened.scene.exposure * gain / (4 * pi * pi)) * (weight * lamp.power);
       light.lamps.push_back(made);
     }

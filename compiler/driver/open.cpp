@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "compiler/light/lamp.h"
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 #include "compiler/mesh_io/load.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
@@ -38,14 +38,15 @@ Result<Opened> open_scene(const std::string& path, const scene::Overrides& overr
   auto furnished = place::furnish(opened.scene, *room, mesh_io::assets_from_files());
   if (!furnished) return located(furnished.error(), opened.scene.span);
   append(opened.notes, located(furnished->warnings, opened.scene.span));
-  const auto lamps = light::hang_lamps(opened.scene, *room);
+  const auto lamps = light::place_lamps(opened.scene, *room);
   if (!lamps) return located(lamps.error(), opened.scene.span);
   append(opened.notes, located(lamps.value().warnings, opened.scene.span));
   if (auto inside = light::lamps_inside_objects(opened.scene, *lamps, furnished->room); !inside.empty()) return inside;
   const light::LightOptions light = light::light_options(opened.scene);
-  if (const auto images = light::lamp_images(lamps->lamps, furnished->room, {light.bounces, opened.scene.exposure, light.cut}); !images)
+  if (const auto images = light::lamp_images(lamps->lamps, furnished->room, {light.bounces, opened.scene.exposure, light.cull_below});
+      !images)
     return located(located(images.error(), opened.scene.bake.mirrors_span), opened.scene.span);
-  light::add_fixtures(opened.scene, *lamps, furnished->room);
+  light::add_lamp_bodies(opened.scene, *lamps, furnished->room);
   opened.room = std::make_unique<place::PlacedRoom>(std::move(furnished->room));
   const auto eye = place::make_eye(opened.scene, *opened.room);
   if (!eye) return located(eye.error(), opened.scene.camera.span.source ? opened.scene.camera.span : opened.scene.span);

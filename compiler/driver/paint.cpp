@@ -9,11 +9,11 @@ namespace orbc::driver {
 namespace {
 
 /// Of a scene without lamps.
-light::LightField dark(const scene::Scene& scene) {
-  light::LightField field;
-  field.ambient = {1, 1, 1};
-  field.exposure = scene.exposure;
-  return field;
+light::LightingContext dark(const scene::Scene& scene) {
+  light::LightingContext lighting;
+  lighting.ambient = {1, 1, 1};
+  lighting.exposure = scene.exposure;
+  return lighting;
 }
 
 // Plain colours are what lit ones are without light: seen at the scene's exposure, and times its emission where something glows.
@@ -44,21 +44,21 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
     return painted;
   }
   painted.baked = true;
-  light::LightField field = options.lit ? prepared(opened, executor).light : dark(opened.scene);
-  field.options = bake::baked_light_options(opened.scene);
+  light::LightingContext lighting = options.lit ? prepared(opened, executor).light : dark(opened.scene);
+  lighting.options = bake::baked_light_options(opened.scene);
   bake::BakeOptions bake = baking;
   bake.max_side = options.max_side;
   bake.with_image16 = options.with_image16;
   const double denser = density_for(*opened.room);
   bake.coarse *= denser, bake.fine *= denser, bake.texture_fine *= denser;
-  if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, field.options.passes = 0;
-  auto baked = bake::bake(room, field, bake, executor, progress);
+  if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, lighting.options.indirect_bounces = 0;
+  auto baked = bake::bake(room, lighting, bake, executor, progress);
   if (!baked) return baked.error();
-  if (options.highlights && options.lit && bake::needs_highlights(*opened.room, field)) {
+  if (options.highlights && options.lit && bake::needs_highlights(*opened.room, lighting)) {
     bake::HighlightOptions shine = bake::highlight_options(opened.scene.bake);
     shine.max_side = options.max_side;
-    if (bake::shows_room(*opened.room, field.lit)) shine.seen_in = see_in(opened, &*baked, executor);
-    painted.highlights = bake::bake_highlights(room, field, copies, drawn, opened.eye, shine, *baked, executor, progress);
+    if (bake::shows_room(*opened.room, lighting.lit)) shine.seen_in = see_in(opened, &*baked, executor);
+    painted.highlights = bake::bake_highlights(room, lighting, copies, drawn, opened.eye, shine, *baked, executor, progress);
   }
   painted.atlas = std::move(baked->atlas);
   return painted;

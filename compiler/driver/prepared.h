@@ -1,7 +1,7 @@
 #pragma once
 #include "compiler/base/executor.h"
 #include "compiler/driver/open.h"
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 #include "compiler/trace/follow.h"
 
 namespace orbc::driver {
@@ -9,7 +9,7 @@ namespace orbc::driver {
 /// What rays meet in a scene, and how it is lit: what the tracer, the bake and whatever looks into the room all ask.
 struct Prepared {
   orbc::trace::TraceScene scene;
-  light::LightField light;
+  light::LightingContext light;
 };
 
 /// Made once for an opened scene, when it is first asked for, and kept with it. In: not called from several threads at once.

@@ -7,7 +7,7 @@
 #include "compiler/bake/baked_light.h"
 #include "compiler/driver/prepared.h"
 #include "compiler/driver/trace.h"
-#include "compiler/render/shade.h"
+#include "compiler/render/radiance.h"
 
 namespace orbc::driver {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kBack = 0.005;  // of the room's height: farther than rounding 
 
 struct Looking {
   const orbc::trace::TraceScene& scene;
-  const light::LightField& light;
+  const light::LightingContext& light;
   render::DrawOptions draw;
   std::optional<bake::BakedLight> baked;
   double exposure = 1;
@@ -45,17 +45,17 @@ bake::SeenIn see_in(const Opened& opened, const bake::Baked* baked, const Execut
   const auto looking = std::make_shared<Looking>(
       Looking{ready.scene, ready.light, draw_options(opened, ready.light, executor), std::nullopt, opened.scene.exposure});
   if (opened.scene.bake.quality != scene::BakeQuality::fine)
-    looking->draw.glances = opened.scene.bake.quality == scene::BakeQuality::draft ? 32 : 128;
+    looking->draw.specular_samples = opened.scene.bake.quality == scene::BakeQuality::draft ? 32 : 128;
   if (baked && ready.light.lit) looking->draw.baked = &looking->baked.emplace(*opened.room, *baked);
   return [looking](const geometry::Position& at, const orbc::trace::Direction& to_eye, const cover::Copy& copy, double beside,
-                   const light::Turn& turn) {
+                   const light::SampleStratum& stratum) {
     orbc::trace::FollowOptions follow = render::follow_options(looking->draw);
     follow.bounces = copy.bounces;
     follow.weight = copy.weight;
-    render::Chance chance;
-    chance.turn = turn;
+    render::PixelSampler sampler;
+    sampler.stratum = stratum;
     const orbc::trace::Path path = orbc::trace::follow(looking->scene, looking_at(looking->scene, at, to_eye, beside), follow);
-    const scene::Color c = looking->exposure * render::radiance(looking->scene, path, looking->draw, chance).radiance;
+    const scene::Color c = looking->exposure * render::radiance(looking->scene, path, looking->draw, sampler).radiance;
     const auto without = [](double shown, double weight) { return weight > 0 ? shown / weight : 0; };
     return scene::Color{without(c.r, copy.weight.r), without(c.g, copy.weight.g), without(c.b, copy.weight.b)};
   };

@@ -13,19 +13,19 @@
 #include "compiler/bend/detail.h"
 #include "compiler/cover/size.h"
 #include "compiler/driver/prepared.h"
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 #include "compiler/notation/growth.h"
-#include "compiler/render/shade.h"
+#include "compiler/render/radiance.h"
 
 namespace orbc::driver {
 namespace {
 
-constexpr int kColumns = 64, kRows = 48;   // of the picture
-constexpr int kCloser = 3;                 // times as many of each where copies left out are looked for: they are few
-constexpr int kDeeper = 96;                // bounces beyond the cut-off
-constexpr double kNothing = 1e-4;          // weight
-constexpr double kInto = 0.25;             // of the room's height: more than the edges of floors are off by, far away
-constexpr double kSlack = 1e-6;            // of a size
+constexpr int kColumns = 64, kRows = 48;  // of the picture
+constexpr int kCloser = 3;                // times as many of each where copies left out are looked for: they are few
+constexpr int kDeeper = 96;               // bounces beyond the cut-off
+constexpr double kNothing = 1e-4;         // weight
+constexpr double kInto = 0.25;            // of the room's height: more than the edges of floors are off by, far away
+constexpr double kSlack = 1e-6;           // of a size
 // Of the way from the height of the eye to floor and ceiling: near it paths are longest
 constexpr double kBands[] = {0.08, 0.22, 0.42, 0.68};
 
@@ -62,7 +62,7 @@ class Missing {
     copy.cover_from_room = geometry::identity(room_.room.space);
     int walls = 0;
     for (std::size_t i = 0; i < word.size(); ++i) {
-      if (word[i] < 0) continue;   // a storey is as far away as the one before
+      if (word[i] < 0) continue;  // a storey is as far away as the one before
       copy.cover_from_room = copy.cover_from_room * mirrors_[static_cast<std::size_t>(word[i])];
       copy.bounces = static_cast<int>(i) + 1;
       // Every half turn passes as many mirrors.
@@ -112,11 +112,11 @@ class Looker {
         missing_(room, options) {
     const scene::CoverSpec& spec = opened.scene.cover;
     if (options.color || options.left_out) {
-      light_ = prepared(opened, executor).light;   // in: the opened room
-      light_.options.passes = 0;
+      light_ = prepared(opened, executor).light;  // in: the opened room
+      light_.options.indirect_bounces = 0;
     }
     shown_.max_bounces = spec.max_bounces, shown_.min_weight = spec.min_weight;
-    shown_.light = light_.lit ? &light_ : nullptr;
+    shown_.lighting = light_.lit ? &light_ : nullptr;
     shown_.background = opened.scene.exposure > 0 ? (1 / opened.scene.exposure) * spec.background : spec.background;
     deep_ = shown_;
     deep_.background = {};
@@ -127,7 +127,7 @@ class Looker {
   Beyond cut_off() {
     Beyond beyond{0, 0, opened_.scene.cover.background, {}};
     Sum all;
-    for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray& ray, Row& row) { cut_off(ray, row); })) {
+    for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray&ray, Row&row) { cut_off(ray, row); })) {
       all.add(row.depth);
       beyond.weight_lost += row.lost / (kColumns * kRows);
     }
@@ -140,7 +140,7 @@ class Looker {
     if (expected) shown_.background = beyond.color;
     constexpr int columns = kCloser * kColumns, lines = kCloser * kRows;
     std::vector<Sum> bands(options_.bands.size() + 1);
-    for (const Row& row : rows(columns, lines, [&](const orbc::trace::Ray& ray, Row& row) { merged(ray, row); })) {
+    for (const Row& row : rows(columns, lines, [&](const orbc::trace::Ray&ray, Row&row) { merged(ray, row); })) {
       for (std::size_t b = 0; b < bands.size(); ++b) bands[b].add(row.bands[b]);
       beyond.weight_merged += row.merged / (columns * lines);
     }
@@ -148,7 +148,7 @@ class Looker {
     for (const Sum& band : bands) all.add(band);
     // Too few to be met: they show what the others show.
     if (all.empty())
-      for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray& ray, Row& row) { everything(ray, row); })) all.add(row.depth);
+      for (const Row& row : rows(kColumns, kRows, [&](const orbc::trace::Ray&ray, Row&row) { everything(ray, row); })) all.add(row.depth);
     for (const Sum& band : bands) beyond.by_height.push_back(band.empty() ? all.color() : band.color());
   }
 
@@ -186,7 +186,7 @@ class Looker {
   }
 
   void everything(const orbc::trace::Ray& ray, Row& row) const {
-    const render::Seen seen = render::radiance(scene_, ray, shown_);
+    const render::RayResult seen = render::radiance(scene_, ray, shown_);
     row.depth.add({seen.path.weight, seen.radiance});
   }
 
@@ -195,7 +195,7 @@ class Looker {
   const Executor& executor_;
   orbc::trace::TraceScene scene_;
   Missing missing_;
-  light::LightField light_;
+  light::LightingContext light_;
   render::DrawOptions shown_, deep_;
 };
 
@@ -282,7 +282,7 @@ std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint
 }
 
 bool may_be_flat(const place::PlacedRoom& room, double pixels) {
-  constexpr double kMost = 8;   // of larger ones the step at the floor's edge would be seen
+  constexpr double kMost = 8;  // of larger ones the step at the floor's edge would be seen
   return room.room.space != geometry::Space::spherical && pixels <= kMost;
 }
 
@@ -344,7 +344,7 @@ std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector
   for (const scene::Color& color : colors) {
     place::Look look;
     look.color = color;
-    look.material.kind = scene::MaterialKind::emissive;   // it is the light itself
+    look.material.kind = scene::MaterialKind::emissive;  // it is the light itself
     room.looks.push_back(look);
   }
   std::vector<std::size_t> parts;

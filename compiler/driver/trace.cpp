@@ -9,15 +9,15 @@
 
 namespace orbc::driver {
 
-render::DrawOptions draw_options(const Opened& opened, const light::LightField& light, const Executor& executor) {
+render::DrawOptions draw_options(const Opened& opened, const light::LightingContext& light, const Executor& executor) {
   render::DrawOptions draw;
-  draw.light = light.lit ? &light : nullptr;
+  draw.lighting = light.lit ? &light : nullptr;
   draw.paths = std::max(1, bake::bake_options(opened.scene.bake).passing.samples / 32);
   draw.max_bounces = opened.scene.cover.max_bounces;
   draw.min_weight = opened.scene.cover.min_weight;
   draw.background = opened.scene.cover.background;
   // The film is exposed as a whole; the background is not.
-  if (light.exposure > 0) draw.background = (1 / light.exposure) * draw.background, draw.white = 1 / light.exposure;
+  if (light.exposure > 0) draw.background = (1 / light.exposure) * draw.background, draw.max_radiance = 1 / light.exposure;
   if (opened.expected_background) draw.background = look_beyond(opened, *opened.room, {true, {}, {}}, executor).color;
   return draw;
 }

@@ -38,7 +38,7 @@ double power_of(const Opened& opened, double z) {
 bool hangs_freely(const Opened& opened, const scene::Lamp& lamp) {
   scene::Scene lit;
   lit.orbifold = opened.scene.orbifold, lit.room = opened.scene.room, lit.objects = opened.scene.objects, lit.lamps = {lamp};
-  const auto hung = light::hang_lamps(lit, opened.room->room);
+  const auto hung = light::place_lamps(lit, opened.room->room);
   return hung.has_value() && hung->warnings.empty() && light::lamps_inside_objects(lit, *hung, *opened.room).empty();
 }
 

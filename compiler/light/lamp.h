@@ -7,59 +7,58 @@
 
 namespace orbc::light {
 
-/// So many samples of a lamp with an extent, from its second on, give the light of all of it by themselves: their mean and their spread are
-/// those of the lamp.
-inline constexpr int kDesign = 4;
+/// The first samples of a lamp with an extent, behind its centre, are a quadrature of the whole lamp by themselves: they have its mean and
+/// its second moments. There are this many.
+inline constexpr int kQuadratureSamples = 4;
 
-/// A place near a lamp where a surface is lit most: the point of floor, ceiling or a plain wall next to it.
-struct Foot {
+/// The place on floor, ceiling or a plain wall that a lamp lights most.
+struct HotSpot {
   geometry::Position at;
-  double reach = 0;                         ///< distance of the lamp
-  double share = 1;                         ///< the lamp's profile that way
-  bool upright = true;                      ///< on floor or ceiling
+  double distance = 0;           ///< of the lamp
+  double angular_intensity = 1;  ///< of the lamp in that direction
+  bool horizontal = true;        ///< on floor or ceiling; false: on a wall
 };
 
-/// A lamp of a scene, hung in its room: where its light starts, and how much of it goes where.
-/// Samples are fixed points of the lamp, so that two roads and two runs see the same shadow; every beginning of the list is spread over the
+/// A lamp at its place in the room.
+/// Samples are fixed points of the lamp, so the tracer and the bake see the same shadows. Every first part of the list is spread over the
 /// whole lamp.
-struct HungLamp {
+struct PlacedLamp {
   scene::LampKind kind = scene::LampKind::point;
   scene::Falloff falloff = scene::Falloff::geodesic;
   scene::Color power;                       ///< Φ × colour
-  double radius = 0;                        ///< where its falloff is clamped
-  double extent = 0;                        ///< farthest sample from the centre
-  double cone_inner = -1, cone_outer = -1;  ///< spot: cosines between which it fades out
-  double gain = 1;                          ///< largest factor that `profile` gives
+  double radius = 0;                        ///< the falloff does not rise any more within this distance
+  double extent = 0;                        ///< distance of the farthest sample from the centre
+  double cone_inner = -1, cone_outer = -1;  ///< of spots: cosines between which the light fades out
+  double peak_intensity = 1;                ///< maximum of `angular_intensity`
   geometry::Position centre;
-  std::vector<geometry::Position> samples;  ///< at least one; a point has one
-  std::vector<trace::Direction> axes;       ///< per sample: unit direction that it faces (tube: along it)
-  std::vector<Foot> feet;                   ///< filled when light is prepared
+  std::vector<geometry::Position> samples;  ///< the centre, then points of the lamp; points and spots have the centre alone
+  std::vector<trace::Direction> axes;       ///< per sample: the unit direction that the lamp faces; of tubes that along them
+  std::vector<HotSpot> hot_spots;           ///< filled by prepare_light
 };
 
-/// How much brighter than a lamp that shines alike to all sides it is in a direction at angle θ to its axis; its mean over all directions
-/// is 1.
-/// Formula: sphere, point 1; rectangle and disk, lit on one side, 4·cosθ (Lambert); tube (4/π)·sinθ (Lambert); spot: constant inside, a
-///          smooth step over the outer tenth of its cone.
-[[nodiscard]] double profile(const HungLamp& lamp, double cos_axis);
+/// The intensity of a lamp in a direction, relative to an isotropic lamp of the same power. Its mean over all directions is 1.
+/// In:      cosine of the direction to the axis of the sample.
+/// Formula: spheres and points 1; rectangles and disks, which shine to one side, 4·cosθ (Lambert); tubes (4/π)·sinθ (Lambert); spots:
+///          constant inside, a smooth step over the outer tenth of the cone.
+[[nodiscard]] double angular_intensity(const PlacedLamp& lamp, double cos_axis);
 
-/// Hangs the lamps of a scene.
-/// Makes:       in the order of the scene. Without a height they hang at 9/10 of the room's height; without `to` they face the floor.
-/// Diagnostics: those of place::locate; light.lamp-in-wall when part of a lamp is outside of the room; light.no-power (a warning in
-///              `warnings`).
-struct HungLamps {
-  std::vector<HungLamp> lamps;
+/// The lamps of a scene, in its order.
+struct PlacedLamps {
+  std::vector<PlacedLamp> lamps;
   Diagnostics warnings;
 };
-[[nodiscard]] Result<HungLamps> hang_lamps(const scene::Scene& scene, const room::Room& room);
+/// Places the lamps of a scene. The default height is 9/10 of the room's height; lamps without `to` face the floor.
+/// Diagnostics: those of place::locate; light.lamp-in-wall when a part of a lamp is outside of the room; light.no-power (in `warnings`).
+[[nodiscard]] Result<PlacedLamps> place_lamps(const scene::Scene& scene, const room::Room& room);
 
-/// Lamps whose middle is inside a closed object, which would keep all their light. In: the room before add_fixtures.
+/// Refuses lamps with their centre inside a closed object, which would keep all their light. In: the room without lamp bodies.
 /// Diagnostics: light.lamp-inside-object (names the object).
-[[nodiscard]] Diagnostics lamps_inside_objects(const scene::Scene& scene, const HungLamps& lamps, const place::PlacedRoom& room);
+[[nodiscard]] Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& lamps, const place::PlacedRoom& room);
 
-/// Puts the bodies of the visible lamps into the room, as its last parts: spheres, plates and tubes that glow and cast no shadow. Points
-/// and spots have none.
-void add_fixtures(const scene::Scene& scene, const HungLamps& lamps, place::PlacedRoom& room);
-/// Which lamp of the scene a part is the body of (from 0), or −1.
-[[nodiscard]] int lamp_of(const place::PlacedMesh& part);
+/// Adds the bodies of visible lamps to the room, as its last parts: emissive spheres, plates and tubes, which cast no shadow. Points and
+/// spots have no bodies.
+void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place::PlacedRoom& room);
+/// The lamp of the scene (from 0) whose body a part is, or −1.
+[[nodiscard]] int lamp_of_part(const place::PlacedMesh& part);
 
 }  // namespace orbc::light

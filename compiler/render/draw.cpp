@@ -5,104 +5,115 @@
 #include <cmath>
 
 #include "compiler/render/lens.h"
-#include "compiler/render/shade.h"
+#include "compiler/render/radiance.h"
 
 namespace orbc::render {
 namespace {
 
-constexpr int kTile = 16;           // pixels; small enough to spread over threads, large enough that neighbours share the tree in cache
-constexpr std::size_t kStream = 512; // rays followed at once: their paths stay in the second-level cache
+constexpr int kTileSide = 16;                // pixels: many tiles for the threads, and neighbours share the tree in the cache
+constexpr std::size_t kRaysPerStream = 512;  // their paths fit into the second-level cache
 
 struct Pixel {
   int x = 0, y = 0;
 };
 
-void record(const Seen& seen, std::size_t pixel, Film& film) {
-  film.bounces[pixel] = seen.path.bounces;
-  film.weight[pixel] = static_cast<float>(std::max({seen.path.weight.r, seen.path.weight.g, seen.path.weight.b}));
-  if (!seen.hit) return;
-  film.depth[pixel] = static_cast<float>(seen.path.length);
-  film.object[pixel] = seen.surface.part;
-  film.normal[pixel] = {static_cast<float>(seen.surface.normal.floor.x), static_cast<float>(seen.surface.normal.floor.y),
-                        static_cast<float>(seen.surface.normal.z)};
+// Writes what the first sample of a pixel has found into the passes of the film.
+void record(const RayResult& result, std::size_t pixel, Film& film) {
+  film.bounces[pixel] = result.path.bounces;
+  film.weight[pixel] = static_cast<float>(std::max({result.path.weight.r, result.path.weight.g, result.path.weight.b}));
+  if (!result.hit) return;
+  film.depth[pixel] = static_cast<float>(result.path.length);
+  film.object[pixel] = result.surface.part;
+  film.normal[pixel] = {static_cast<float>(result.surface.normal.floor.x), static_cast<float>(result.surface.normal.floor.y),
+                        static_cast<float>(result.surface.normal.z)};
 }
 
 /// Sums over a pixel's samples, in their order.
-struct Sums {
-  scene::Color radiance, most;
+struct PixelSums {
+  scene::Color radiance, white_bound;
   struct Group {
-    scene::Color guess;
+    scene::Color indirect;
     int count = 0;
   };
-  std::array<Group, Chance::kGroups> groups;   ///< of samples whose guesses belong together
-  void add(const Seen& seen, int group) {
-    radiance = radiance + seen.radiance;
-    most = most + seen.most;
+  std::array<Group, PixelSampler::kGroups> groups;  ///< of samples that share a lattice
+  void add(const RayResult& result, int group) {
+    radiance = radiance + result.radiance;
+    white_bound = white_bound + result.white_bound;
     Group& own = groups[static_cast<std::size_t>(group)];
-    own.guess = own.guess + seen.passed_on, ++own.count;
+    own.indirect = own.indirect + result.indirect;
+    ++own.count;
   }
-  scene::Color mean(double n) const { return least((1 / n) * radiance, (1 / n) * most); }
-  /// Standard error of the mean in the noisiest channel; of a single guess the guess itself.
-  float error(double n) const {
-    scene::Color guess, squares;
-    for (const Group& group : groups) guess = guess + group.guess;
-    if (n < 2) return static_cast<float>(largest(guess));
+  [[nodiscard]] scene::Color mean(double n) const { return least((1 / n) * radiance, (1 / n) * white_bound); }
+  /// Standard error of the mean in the noisiest channel, from the spread between groups; of a single sample its estimate itself.
+  [[nodiscard]] float error(double n) const {
+    scene::Color indirect, squares;
+    for (const Group& group : groups) indirect = indirect + group.indirect;
+    if (n < 2) return static_cast<float>(largest(indirect));
     double count = 0;
     for (const Group& group : groups) {
       if (group.count == 0) continue;
-      const scene::Color off = (1.0 / group.count) * group.guess + (-1.0 / n) * guess;
-      squares = squares + off * off, ++count;
+      const scene::Color off = (1.0 / group.count) * group.indirect + (-1.0 / n) * indirect;
+      squares = squares + off * off;
+      ++count;
     }
-    // A channel that is white is white: its guesses no longer show.
+    // A channel that is clamped to white shows no noise.
     const auto variance = [&](double sum, double all, double bound) { return all >= bound ? 0 : sum / (count * (count - 1)); };
-    return static_cast<float>(std::sqrt(scene::largest({variance(squares.r, radiance.r, most.r), variance(squares.g, radiance.g, most.g),
-                                                        variance(squares.b, radiance.b, most.b)})));
+    return static_cast<float>(
+        std::sqrt(scene::largest({variance(squares.r, radiance.r, white_bound.r), variance(squares.g, radiance.g, white_bound.g),
+                                  variance(squares.b, radiance.b, white_bound.b)})));
   }
 };
 
-/// In: where the eye is, in the room.
+// In: the eye's point of the floor.
 trace::Ray eye_ray_from(const place::Eye& eye, const geometry::Point& at, double x, double y) {
   const geometry::Vector3 d = place::direction_through(eye, x, y);
   const geometry::Tangent floor = eye.room_from_eye * geometry::Tangent(0, d.x, d.y);
   return trace::ray_from(eye.room_from_eye.space, {at, eye.z}, {floor, d.z});
 }
 
-std::uint64_t seed_of(const DrawOptions& options) { return options.light ? static_cast<std::uint64_t>(options.light->options.seed) : 0; }
+std::uint64_t seed_of(const DrawOptions& options) {
+  return options.lighting ? static_cast<std::uint64_t>(options.lighting->options.seed) : 0;
+}
 
-std::size_t number_of(const Pixel& at, const Film& film) {
+std::size_t index_of(const Pixel& at, const Film& film) {
   return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(at.x);
 }
 
-Chance chance_of(const DrawOptions& options, std::size_t pixel, int sample) {
+PixelSampler sampler_for(const DrawOptions& options, std::size_t pixel, int sample) {
   return {seed_of(options), pixel, sample, options.samples};
 }
 
-/// Draws pixels by all their samples, as many rays at once as make a stream.
+/// Draws pixels with all their samples, a stream of rays at a time.
 void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options,
                  const std::vector<std::array<double, 2>>& samples, const std::vector<Pixel>& pixels, Film& film) {
   const std::size_t count = samples.size(), all = pixels.size() * count;
   const double n = static_cast<double>(count);
   const geometry::Point eye_at = eye.room_from_eye * geometry::Point();
   std::vector<trace::Ray> rays;
-  rays.reserve(std::min(all, kStream));
-  Sums sums;
-  for (std::size_t first = 0; first < all; first += kStream) {
+  rays.reserve(std::min(all, kRaysPerStream));
+  PixelSums sums;
+  for (std::size_t first = 0; first < all; first += kRaysPerStream) {
     rays.clear();
-    for (std::size_t i = first; i < std::min(all, first + kStream); ++i) {
+    for (std::size_t i = first; i < std::min(all, first + kRaysPerStream); ++i) {
       const double x = pixels[i / count].x + samples[i % count][0], y = pixels[i / count].y + samples[i % count][1];
-      if (!eye.lens) rays.push_back(eye_ray_from(eye, eye_at, x, y));
-      else
-        rays.push_back(
-            lens_ray(eye, x, y, lens_point(seed_of(options), number_of(pixels[i / count], film), static_cast<int>(i % count))));
+      if (eye.lens) {
+        const auto on_lens = lens_point(seed_of(options), index_of(pixels[i / count], film), static_cast<int>(i % count));
+        rays.push_back(lens_ray(eye, x, y, on_lens));
+      } else {
+        rays.push_back(eye_ray_from(eye, eye_at, x, y));
+      }
     }
     std::vector<trace::Path> paths = trace::follow(scene, rays, follow_options(options));
     for (std::size_t j = 0; j < paths.size(); ++j) {
       const std::size_t i = first + j, sample = i % count;
       const Pixel at = pixels[i / count];
-      const std::size_t pixel = number_of(at, film);
-      const Seen seen = radiance(scene, std::move(paths[j]), options, chance_of(options, pixel, static_cast<int>(sample)));
-      if (sample == 0) sums = {}, record(seen, pixel, film);
-      sums.add(seen, Chance::group_of(static_cast<int>(sample), static_cast<int>(count)));
+      const std::size_t pixel = index_of(at, film);
+      const RayResult result = radiance(scene, std::move(paths[j]), options, sampler_for(options, pixel, static_cast<int>(sample)));
+      if (sample == 0) {
+        sums = {};
+        record(result, pixel, film);
+      }
+      sums.add(result, PixelSampler::group_of(static_cast<int>(sample), static_cast<int>(count)));
       if (sample + 1 < count) continue;
       film.color[pixel] = sums.mean(n);
       if (!film.error.empty()) film.error[pixel] = sums.error(n);
@@ -122,7 +133,7 @@ std::vector<std::array<double, 2>> sample_points(int samples) {
       for (int i = 0; i < side; ++i) points.push_back({(i + 0.5) / side, (j + 0.5) / side});
     return points;
   }
-  // Kronecker lattice of the golden ratio: one coordinate stratified, the other with the least discrepancy (Niederreiter 1992, §3).
+  // The lattice of the golden ratio: one coordinate is stratified, the other has low discrepancy (Niederreiter 1992, §3).
   for (int i = 0; i < samples; ++i) points.push_back({(i + 0.5) / samples, std::fmod(0.5 + i * 0.6180339887498949, 1.0)});
   return points;
 }
@@ -130,15 +141,15 @@ std::vector<std::array<double, 2>> sample_points(int samples) {
 Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor,
           const Progress& progress) {
   Film film = make_film(eye.width, eye.height);
-  if (options.light && options.light->options.passes > 0) film.error.assign(film.color.size(), 0);
+  if (options.lighting && options.lighting->options.indirect_bounces > 0) film.error.assign(film.color.size(), 0);
   const std::vector<std::array<double, 2>> samples = sample_points(options.samples);
-  const int columns = (eye.width + kTile - 1) / kTile, rows = (eye.height + kTile - 1) / kTile;
+  const int columns = (eye.width + kTileSide - 1) / kTileSide, rows = (eye.height + kTileSide - 1) / kTileSide;
   const std::uint64_t total = static_cast<std::uint64_t>(eye.width) * static_cast<std::uint64_t>(eye.height) * samples.size();
   std::atomic<std::uint64_t> done{0};
   executor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t tile) {
-    const int x0 = static_cast<int>(tile % static_cast<std::size_t>(columns)) * kTile,
-              y0 = static_cast<int>(tile / static_cast<std::size_t>(columns)) * kTile;
-    const int x1 = std::min(x0 + kTile, eye.width), y1 = std::min(y0 + kTile, eye.height);
+    const int x0 = static_cast<int>(tile % static_cast<std::size_t>(columns)) * kTileSide,
+              y0 = static_cast<int>(tile / static_cast<std::size_t>(columns)) * kTileSide;
+    const int x1 = std::min(x0 + kTileSide, eye.width), y1 = std::min(y0 + kTileSide, eye.height);
     std::vector<Pixel> pixels;
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) pixels.push_back({x, y});

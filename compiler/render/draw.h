@@ -4,7 +4,7 @@
 #include "compiler/bake/baked_light.h"
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 #include "compiler/place/eye.h"
 #include "compiler/render/film.h"
 #include "compiler/trace/follow.h"
@@ -12,29 +12,28 @@
 namespace orbc::render {
 
 struct DrawOptions {
-  int samples = 1;  ///< per pixel; 1 = the pixel's centre, n² = a regular grid, else a rank-1 lattice
-  int max_bounces = 12;
-  double min_weight = 0;
-  int max_depth = 16;                        ///< mirror, glass and metal objects met on one path
-  int glances = 256;                         ///< ways, at most, on which rough metals are seen to mirror the room; all samples together
-  int paths = 8;                             ///< `integrator: path`: paths of light from a sample's surface on
-  const light::LightField* light = nullptr;  ///< of this room, for scenes with lamps; else plain colours are shown
-  const bake::BakedLight* baked = nullptr;   ///< where given, what is matte is looked up there instead of being lit
-  scene::Color background;                   ///< seen where a path is cut off, times the path's weight like everything else
-  /// The most that a surface shows in scenes without light (lit ones: light::white_of)
-  double white = std::numeric_limits<double>::infinity();
+  int samples = 1;                                   ///< per pixel: 1 is the centre, n² a regular grid, other numbers a rank-1 lattice
+  int max_bounces = 12;                              ///< mirrors of the room on one path
+  double min_weight = 0;                             ///< throughput below which a path is cut off
+  int max_depth = 16;                                ///< mirror, glass and metal objects on one path
+  int specular_samples = 256;                        ///< most directions sampled for the room in a rough metal, by all samples of a pixel
+  int paths = 8;                                     ///< `integrator: path`: paths of indirect light per sample
+  const light::LightingContext* lighting = nullptr;  ///< of this room; null: scenes without lamps, where surfaces show their albedo
+  const bake::BakedLight* baked = nullptr;           ///< if given, matte light is looked up here
+  scene::Color background;                           ///< radiance where a path is cut off
+  double max_radiance = std::numeric_limits<double>::infinity();  ///< of surfaces in scenes without lamps (else: light::white_level)
 };
 
-/// The reference picture: every pixel's rays followed as geodesics through real mirrors. Never unfolds, never bends. An eye with a lens
-/// sends each sample from another point of it.
-/// Makes: the same film, bit by bit, for any executor: samples are fixed points of the pixel, pixels are independent.
+/// Draws the reference picture: the rays of every pixel, followed as geodesics over real mirrors. It never unfolds the room and never bends
+/// meshes. An eye with a lens sends each sample from another point of the lens.
+/// Makes: the same film, bit by bit, for any executor: samples are fixed points of the pixel, and pixels are independent.
 [[nodiscard]] Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor,
                         const Progress& progress = {});
 
-/// The geodesic that starts at the eye through the picture at (x, y) pixels.
+/// The geodesic from the eye through the point (x, y) of the picture, in pixels.
 [[nodiscard]] trace::Ray eye_ray(const place::Eye& eye, double x, double y);
 
-/// Offsets of the samples of a pixel, in [0, 1)².
+/// The samples of a pixel: points of [0, 1)².
 [[nodiscard]] std::vector<std::array<double, 2>> sample_points(int samples);
 
 }  // namespace orbc::render

@@ -13,8 +13,8 @@ namespace {
 
 std::uint8_t to_byte(double encoded) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded, 0.0, 1.0))); }
 
-// A hue per number by the golden angle: neighbours differ clearly, and the same part has the same colour in every picture.
-scene::Color distinct(std::int32_t id) {
+// A hue for each number, by the golden angle: neighbours differ clearly, and a part has the same colour in every picture.
+scene::Color distinct_color(std::int32_t id) {
   if (id < 0) return {0.05, 0.05, 0.05};
   const double hue = 6 * std::fmod(0.13 + 0.6180339887498949 * id, 1.0);
   const auto channel = [&](double shift) { return std::clamp(std::fabs(std::fmod(hue + shift, 6.0) - 3) - 1, 0.0, 1.0) * 0.75 + 0.2; };
@@ -22,7 +22,7 @@ scene::Color distinct(std::int32_t id) {
 }
 
 template <class Value>
-image::Image painted(const Film& film, Value&& value) {
+image::Image picture_of(const Film& film, Value&& value) {
   image::Image image{film.width, film.height, {}};
   image.rgba.reserve(film.color.size() * 4);
   for (std::size_t i = 0; i < film.color.size(); ++i) {
@@ -38,7 +38,8 @@ image::Image painted(const Film& film, Value&& value) {
 Film make_film(int width, int height) {
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   Film film;
-  film.width = width, film.height = height;
+  film.width = width;
+  film.height = height;
   film.color.resize(n);
   film.depth.assign(n, std::numeric_limits<float>::infinity());
   film.normal.assign(n, {0, 0, 0});
@@ -65,17 +66,17 @@ image::Image to_image(const Film& film, Pass pass, double exposure) {
     case Pass::color:
       return to_image(film, exposure);
     case Pass::depth:
-      return painted(film, [&](std::size_t i) { return grey(1 / (1 + static_cast<double>(film.depth[i]))); });
+      return picture_of(film, [&](std::size_t i) { return grey(1 / (1 + static_cast<double>(film.depth[i]))); });
     case Pass::normal:
-      return painted(film, [&](std::size_t i) {
+      return picture_of(film, [&](std::size_t i) {
         return scene::Color{(film.normal[i][0] + 1) / 2, (film.normal[i][1] + 1) / 2, (film.normal[i][2] + 1) / 2};
       });
     case Pass::object:
-      return painted(film, [&](std::size_t i) { return distinct(film.object[i]); });
+      return picture_of(film, [&](std::size_t i) { return distinct_color(film.object[i]); });
     case Pass::bounces:
-      return painted(film, [&](std::size_t i) { return grey(1 / (1 + 0.25 * film.bounces[i])); });
+      return picture_of(film, [&](std::size_t i) { return grey(1 / (1 + 0.25 * film.bounces[i])); });
     case Pass::weight:
-      return painted(film, [&](std::size_t i) { return grey(film.weight[i]); });
+      return picture_of(film, [&](std::size_t i) { return grey(film.weight[i]); });
   }
   return {};
 }

@@ -10,17 +10,17 @@
 
 namespace orbc::render {
 
-/// What the reference picture records, one value per pixel, rows from top to bottom. Passes other than colour are those of the pixel's
-/// first sample.
+/// The reference picture: one value per pixel and pass, rows from top to bottom. Passes other than colour are those of the pixel's first
+/// sample.
 struct Film {
   int width = 0, height = 0;
   std::vector<scene::Color> color;           ///< linear radiance, averaged over the samples
-  std::vector<float> depth;                  ///< path length to what is seen, infinite where nothing is
-  std::vector<std::array<float, 3>> normal;  ///< (x, y, z) in the frame of the room at the point seen
-  std::vector<std::int32_t> object;          ///< index of the part, −1 a wall without panel, −2 the background
+  std::vector<float> depth;                  ///< length of the path to the surface, infinite where there is none
+  std::vector<std::array<float, 3>> normal;  ///< of the surface, in the frame of the room
+  std::vector<std::int32_t> object;          ///< index of the part; −1: a wall without panel; −2: the background
   std::vector<std::int32_t> bounces;
   std::vector<float> error;   ///< standard error of the colour's noisiest channel (`integrator: path`), else empty
-  std::vector<float> weight;  ///< largest channel of the mirrors' weight
+  std::vector<float> weight;  ///< largest channel of the mirrors' throughput
 };
 
 [[nodiscard]] Film make_film(int width, int height);
@@ -29,7 +29,7 @@ struct Film {
 [[nodiscard]] image::Image to_image(const Film& film, double exposure = 1);
 
 enum class Pass { color, depth, normal, object, bounces, weight };
-/// A pass as a picture to look at: depth and bounces as greys (near is light), normals as (n + 1)/2, objects in distinct colours.
+/// A pass as a picture: depth and bounces as greys (near is light), normals as (n + 1)/2, objects in distinct colours.
 [[nodiscard]] image::Image to_image(const Film& film, Pass pass, double exposure);
 
 /// All passes as channels of OpenEXR: R G B (linear), Z, N.X N.Y N.Z, object.id, bounces, weight.

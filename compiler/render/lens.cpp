@@ -1,7 +1,6 @@
 // Thin lens along geodesics: a lens maps the rays of a point of the picture to rays that meet in one point (Kolb, Mitchell, Hanrahan, A
-// realistic camera model for computer graphics, 1995, §2, there with a plane in focus; here it is the sphere at the focus distance, since
-// in curved space distances from the eye are what has a meaning). Lens and focus are geodesic polar coordinates about the eye, so all is
-// worked out in its frame, where both are near the origin or in one direction from it.
+// realistic camera model for computer graphics, 1995, §2, there with a plane in focus; here the sphere at the focus distance is in
+// focus, since planes have no meaning in curved space). Lens and focus are given in geodesic polar coordinates about the eye, in its frame.
 #include "compiler/render/lens.h"
 
 #include <cmath>
@@ -10,7 +9,7 @@
 #include "compiler/base/check.h"
 #include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
-#include "compiler/surface/random.h"
+#include "compiler/surface/sampling.h"
 
 namespace orbc::render {
 
@@ -30,10 +29,10 @@ trace::Ray lens_ray(const place::Eye& eye, double x, double y, const std::array<
 }
 
 std::array<double, 2> lens_point(std::uint64_t seed, std::uint64_t pixel, int k) {
-  constexpr std::uint64_t kOwn = 0x6c656e73;  // a stream of numbers that nothing else of the pixel uses
-  surface::Random random(seed, pixel, kOwn);
+  constexpr std::uint64_t kLensStream = 0x6c656e73;  // random numbers that nothing else of the pixel uses
+  surface::Random random(seed, pixel, kLensStream);
   const auto at = surface::r3_point(k, random.next_three());
-  // The square onto the disk, areas kept (Shirley, Chiu, A low distortion map between disk and square, 1997).
+  // Maps the square onto the disk and keeps areas (Shirley, Chiu, A low distortion map between disk and square, 1997).
   const double a = 2 * at[0] - 1, b = 2 * at[1] - 1;
   if (a == 0 && b == 0) return {0, 0};
   const bool flat = std::fabs(a) > std::fabs(b);

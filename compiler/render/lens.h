@@ -7,14 +7,15 @@
 
 namespace orbc::render {
 
-/// The ray that meets, at the lens's focus distance, what the ray through its middle meets there.
-/// In:    an eye with a lens; the picture at (x, y) pixels; where on the lens: (right, up) in the unit disk.
-/// Makes: a geodesic of the room that starts at distance radius·|on_lens| from the eye. On S² it goes the way of its neighbour through the
-///        middle, which is the shorter one, since no lens focuses at π or beyond.
+/// The ray from a point of the lens to the point at focus distance on the ray through the lens's centre.
+/// In:    an eye with a lens; the picture at (x, y) pixels; the point of the lens: (right, up) in the unit disk.
+/// Makes: a geodesic of the room that starts at distance radius·|on_lens| from the eye. On S² it goes the same way round as the ray through
+/// the
+///        centre, which is the shorter one, since no lens focuses at π or beyond.
 [[nodiscard]] trace::Ray lens_ray(const place::Eye& eye, double x, double y, const std::array<double, 2>& on_lens);
 
-/// Where on the lens the k-th sample of a pixel looks through, in the unit disk, evenly by area.
-/// Makes: points of one lattice a pixel, moved at random: neighbours differ, so that few samples show noise instead of ghosts.
+/// The point of the lens for sample k of a pixel, in the unit disk, uniform by area.
+/// Makes: points of a lattice that is shifted at random for each pixel. With few samples the picture has noise instead of ghosts.
 [[nodiscard]] std::array<double, 2> lens_point(std::uint64_t seed, std::uint64_t pixel, int k);
 
 }  // namespace orbc::render

@@ -17,20 +17,24 @@ using geometry::Vector3;
 using scene::Color;
 using scene::Pattern;
 
-// A well mixed 32-bit number of a lattice point (the finaliser of MurmurHash3; Appleby, public domain).
+// Hash of a lattice point as a number in [0, 1): the finaliser of MurmurHash3 (Appleby, public domain).
 double lattice_value(std::int64_t x, std::int64_t y, std::int64_t z) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
                     static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
-  h ^= h >> 16, h *= 0x85ebca6bu, h ^= h >> 13, h *= 0xc2b2ae35u, h ^= h >> 16;
+  h ^= h >> 16;
+  h *= 0x85ebca6bu;
+  h ^= h >> 13;
+  h *= 0xc2b2ae35u;
+  h ^= h >> 16;
   return h * (1.0 / 4294967296.0);
 }
 
-double smooth(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
+double quintic(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
 
 // Value noise, −1…1, twice differentiable.
 double noise(const Vector3& p) {
   const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-  const double u = smooth(p.x - fx), v = smooth(p.y - fy), w = smooth(p.z - fz);
+  const double u = quintic(p.x - fx), v = quintic(p.y - fy), w = quintic(p.z - fz);
   const auto x = static_cast<std::int64_t>(fx), y = static_cast<std::int64_t>(fy), z = static_cast<std::int64_t>(fz);
   const auto mix = [](double a, double b, double t) { return a + t * (b - a); };
   const auto row = [&](std::int64_t j, std::int64_t k) { return mix(lattice_value(x, j, k), lattice_value(x + 1, j, k), u); };
@@ -38,15 +42,16 @@ double noise(const Vector3& p) {
 }
 
 double turbulence(Vector3 p, int octaves) {
-  double sum = 0, size = 1;
-  for (int i = 0; i < octaves; ++i, size /= 2) {
-    sum += size * noise(p);
+  double sum = 0, amplitude = 1;
+  for (int i = 0; i < octaves; ++i) {
+    sum += amplitude * noise(p);
+    amplitude /= 2;
     p = 2.03 * p + Vector3{17.1, 5.7, 31.3};
   }
   return sum;
 }
 
-double step(double from, double to, double t) {
+double smoothstep(double from, double to, double t) {
   t = std::clamp((t - from) / (to - from), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
@@ -58,6 +63,18 @@ Color texel(const image::Image& image, double u, double v) {
 
 bool is_solid(Pattern pattern) { return pattern == Pattern::marble || pattern == Pattern::wood || pattern == Pattern::granite; }
 
+// Objects carry coordinates of their own. Floor, ceiling and walls are cut from one solid. Frames have neither.
+bool has_solid_position(const place::PlacedMesh& part) {
+  return !part.pattern_position.empty() || part.kind == place::PartKind::floor || part.kind == place::PartKind::ceiling ||
+         part.kind == place::PartKind::wall;
+}
+
+std::optional<Vector3> solid_position(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at,
+                                      const Vector3& object_position) {
+  if (!has_solid_position(part)) return std::nullopt;
+  return part.pattern_position.empty() ? shell_position(room.room.space, at) : object_position;
+}
+
 }  // namespace
 
 double solid_pattern(Pattern pattern, const Vector3& at, double cell) {
@@ -66,26 +83,22 @@ double solid_pattern(Pattern pattern, const Vector3& at, double cell) {
     case Pattern::marble: {
       const double sheet = p.x + 0.6 * p.y + 0.8 * p.z + 1.3 * turbulence(1.1 * p, 5);
       const double vein = 1 - std::fabs(math::sin(3.14159265358979 * sheet));
-      return std::clamp(0.75 * step(0.72, 1, vein) + 0.25 * step(0.1, 0.9, vein) * step(-0.4, 0.8, noise(2.3 * p)), 0.0, 1.0);
+      return std::clamp(0.75 * smoothstep(0.72, 1, vein) + 0.25 * smoothstep(0.1, 0.9, vein) * smoothstep(-0.4, 0.8, noise(2.3 * p)), 0.0,
+                        1.0);
     }
     case Pattern::wood: {
       const Vector3 bent = p + 0.18 * Vector3{noise(1.3 * p), noise(1.3 * p + Vector3{7.7, 3.1, 9.2}), 0};
       const double ring = 4 * math::hypot(bent.x + 0.9, bent.y + 0.4 + 0.08 * p.z), within = ring - std::floor(ring);
       const double grain = 0.12 * noise({28 * p.x, 28 * p.y, 2 * p.z});
-      return std::clamp(step(0.15, 0.85, within) * (1 - step(0.9, 1, within)) + grain, 0.0, 1.0);
+      return std::clamp(smoothstep(0.15, 0.85, within) * (1 - smoothstep(0.9, 1, within)) + grain, 0.0, 1.0);
     }
     case Pattern::granite: {
       const double grains = noise(6 * p) + 0.7 * noise(13 * p + Vector3{3.3, 8.1, 1.7}) + 0.45 * noise(29 * p + Vector3{9.4, 2.6, 5.5});
-      return step(-0.35, 0.75, grains);
+      return smoothstep(-0.35, 0.75, grains);
     }
     default:
       return 0;
   }
-}
-
-bool has_solid(const place::PlacedMesh& part) {
-  return !part.pattern_position.empty() || part.kind == place::PartKind::floor || part.kind == place::PartKind::ceiling ||
-         part.kind == place::PartKind::wall;
 }
 
 Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
@@ -93,55 +106,51 @@ Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
   return {z.real(), z.imag(), at.z};
 }
 
-void set_solid(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at, const Vector3& own,
-               SurfaceKey& key) {
-  key.solid = has_solid(part);
-  if (!key.solid) return;
-  key.pattern_position = part.pattern_position.empty() ? shell_position(room.room.space, at) : own;
-}
-
-bool varies(const place::PlacedRoom& room, int look, bool solid) {
+bool varies_in_triangle(const place::PlacedRoom& room, const place::PlacedMesh& part, int look) {
   if (look < 0) return false;
   const place::Look& l = room.looks[static_cast<std::size_t>(look)];
-  return l.texture >= 0 || (solid && is_solid(l.material.pattern));
+  return l.texture >= 0 || (has_solid_position(part) && is_solid(l.material.pattern));
 }
 
-Color surface_albedo(const place::PlacedRoom& room, const SurfaceKey& key) {
-  if (key.look < 0) return key.color;
-  const place::Look& look = room.looks[static_cast<std::size_t>(key.look)];
-  if (look.texture >= 0) return look.color * texel(room.textures[static_cast<std::size_t>(look.texture)], key.uv[0], key.uv[1]);
-  if (!key.solid || !is_solid(look.material.pattern)) return key.color;
-  const double t = solid_pattern(look.material.pattern, key.pattern_position, look.material.cell);
+Color albedo(const place::PlacedRoom& room, const AlbedoQuery& query) {
+  if (query.look < 0) return query.color;
+  const place::Look& look = room.looks[static_cast<std::size_t>(query.look)];
+  if (look.texture >= 0) return look.color * texel(room.textures[static_cast<std::size_t>(look.texture)], query.uv[0], query.uv[1]);
+  if (!query.solid_position || !is_solid(look.material.pattern)) return query.color;
+  const double t = solid_pattern(look.material.pattern, *query.solid_position, look.material.cell);
   return (1 - t) * look.material.color + t * look.material.second;
 }
 
-Color surface_color(const place::PlacedRoom& room, const trace::SurfacePoint& point) {
-  SurfaceKey key;
-  key.look = point.look, key.color = point.color;
-  key.uv[0] = point.uv[0], key.uv[1] = point.uv[1];
-  if (point.part >= 0) set_solid(room, room.parts[static_cast<std::size_t>(point.part)], point.at, point.pattern_position, key);
-  return surface_albedo(room, key);
+Color hit_albedo(const place::PlacedRoom& room, const trace::SurfacePoint& point) {
+  AlbedoQuery query;
+  query.look = point.look;
+  query.color = point.color;
+  query.uv[0] = point.uv[0];
+  query.uv[1] = point.uv[1];
+  if (point.part >= 0)
+    query.solid_position = solid_position(room, room.parts[static_cast<std::size_t>(point.part)], point.at, point.pattern_position);
+  return albedo(room, query);
 }
 
 Color triangle_albedo(const place::PlacedRoom& room, const place::PlacedMesh& part, std::size_t triangle, const std::array<double, 3>& b) {
-  SurfaceKey key;
-  key.look = part.look[triangle];
-  key.color = room.looks[part.look[triangle]].color;
+  AlbedoQuery query;
+  query.look = part.look[triangle];
+  query.color = room.looks[part.look[triangle]].color;
   const mesh::Triangle& t = part.triangles[triangle];
   geometry::Ambient sum{0, 0, 0};
-  geometry::Vector3 own;
+  geometry::Vector3 object_position;
   double z = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     sum = sum + b[k] * part.floor[t[k]];
     z += b[k] * part.z[t[k]];
     if (!part.uv.empty())
-      for (std::size_t c = 0; c < 2; ++c) key.uv[c] += b[k] * static_cast<double>(part.uv[t[k]][c]);
-    if (!part.pattern_position.empty()) own = own + b[k] * part.pattern_position[t[k]];
+      for (std::size_t c = 0; c < 2; ++c) query.uv[c] += b[k] * static_cast<double>(part.uv[t[k]][c]);
+    if (!part.pattern_position.empty()) object_position = object_position + b[k] * part.pattern_position[t[k]];
   }
-  // Uv lie in [0, 1]: 1 is the last texel of this repeat, not the first of the next.
-  for (double& c : key.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
-  set_solid(room, part, {geometry::normalised_point(room.room.space, sum), z}, own, key);
-  return surface_albedo(room, key);
+  // The uv of a triangle lie in [0, 1]. 1 means the last texel of this repeat, not the first texel of the next one.
+  for (double& c : query.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
+  query.solid_position = solid_position(room, part, {geometry::normalised_point(room.room.space, sum), z}, object_position);
+  return albedo(room, query);
 }
 
 }  // namespace orbc::surface

@@ -3,14 +3,16 @@
 
 namespace orbc::surface {
 
-/// The direction of the ray that a mirror object sends back from a point of it.
-[[nodiscard]] trace::Direction mirrored(const trace::TraceScene& scene, const trace::SurfacePoint& point);
-/// Glass: the share of light that is sent back, and the direction of the rest.
+/// The direction in which a perfect mirror at a point reflects the ray that arrives there. Makes: a unit direction.
+[[nodiscard]] trace::Direction reflect(geometry::Space space, const trace::SurfacePoint& point);
+
+/// Light at the surface of glass.
 struct Refraction {
-  double reflectance = 1;
-  trace::Direction direction;
+  double reflectance = 1;      ///< the reflected share; 1 at total reflection
+  trace::Direction direction;  ///< unit: that of the transmitted light; no meaning at total reflection
 };
-/// Formula: Snell; Fresnel for unpolarised light (Born & Wolf, Principles of Optics, §1.5); 1 at total reflection.
-[[nodiscard]] Refraction refracted(const trace::TraceScene& scene, const trace::SurfacePoint& point, double index);
+/// Refracts the ray that arrives at a point. In: the index of refraction of the glass; SurfacePoint::outside says on which side the ray is.
+/// Formula: Snell's law; Fresnel's reflectance of unpolarised light (Born and Wolf, Principles of optics, §1.5).
+[[nodiscard]] Refraction refract(geometry::Space space, const trace::SurfacePoint& point, double index);
 
 }  // namespace orbc::surface

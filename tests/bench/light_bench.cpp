@@ -19,13 +19,14 @@ void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator
   scene::Scene scene = opened().scene;
   scene.bake.quality = quality;
   scene.integrator = integrator;
-  const light::LightField field = light::prepare_light(scene, *opened().room, bake::baked_light_options(scene)).value();
+  const light::LightingContext lighting = light::prepare_light(scene, *opened().room, bake::baked_light_options(scene)).value();
   double points = 0, texels = 0;
   for (auto _ : state) {
-    const bake::Baked baked = bake::bake(*opened().room, field, bake::bake_options(scene.bake), serial_executor()).value();
+    const bake::Baked baked = bake::bake(*opened().room, lighting, bake::bake_options(scene.bake), serial_executor()).value();
     points = static_cast<double>(baked.counts.points), texels = static_cast<double>(baked.counts.texels);
   }
-  state.counters["points"] = points, state.counters["texels"] = texels, state.counters["images"] = static_cast<double>(field.images.size());
+  state.counters["points"] = points, state.counters["texels"] = texels,
+  state.counters["images"] = static_cast<double>(lighting.images.size());
 }
 
 // Rays of a small picture, followed through the mirrors: what a stream of camera rays takes a piece.
@@ -50,17 +51,17 @@ void shadow(benchmark::State& state) {
   const trace::TraceScene scene = trace::prepare(*opened().room);
   std::vector<trace::Ray> rays;
   std::vector<double> lengths;
-  const light::LightField field = light::prepare_light(opened().scene, *opened().room).value();
+  const light::LightingContext lighting = light::prepare_light(opened().scene, *opened().room).value();
   for (const trace::Ray& ray : camera_rays()) {
     const trace::Hit hit = trace::closest(scene, ray);
     const geometry::Position at = trace::position_at(scene.prism.space, ray, hit.t);
-    const trace::Segment way = trace::segment_between(scene.prism.space, at, field.lamps.front().centre);
+    const trace::Segment way = trace::segment_between(scene.prism.space, at, lighting.lamps.front().centre);
     rays.push_back(way.ray);
     rays.back().t_min = trace::kLeave;
     lengths.push_back(way.length);
   }
   for (auto _ : state)
-    for (std::size_t i = 0; i < rays.size(); ++i) benchmark::DoNotOptimize(trace::occluded(field.scene, rays[i], lengths[i]));
+    for (std::size_t i = 0; i < rays.size(); ++i) benchmark::DoNotOptimize(trace::occluded(lighting.scene, rays[i], lengths[i]));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
@@ -27,7 +27,7 @@ inline scene::Scene lit_scene(const std::string& orbifold, scene::LampKind kind,
 struct Lit {
   scene::Scene scene;
   place::PlacedRoom room;
-  light::LightField field;
+  light::LightingContext lighting;
 };
 
 /// In: the most mirrors on a path from a lamp. No image of a lamp is left out.
@@ -35,8 +35,8 @@ inline Lit lit(scene::Scene scene, int bounces) {
   Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
   light::LightOptions options;
   options.bounces = bounces;
-  options.cut = 0;
-  result.field = light::prepare_light(result.scene, result.room, options).value();
+  options.cull_below = 0;
+  result.lighting = light::prepare_light(result.scene, result.room, options).value();
   return result;
 }
 

@@ -60,7 +60,7 @@ std::string matte_part(const driver::Opened& opened, const place::PlacedMesh& pa
 
 /// Radiance of a matte surface is albedo · E/π with E = Φ·cosθ/(4πr²); POV-Ray shows albedo · c·cosθ · 2/(1 + (r/D)²), which for D ≪ r is
 /// 2cD²/r². So c = exposure · Φ/(8π²D²), too large by D²/r² of itself: with D = 1/1000 less than 1/10,000 from r = 1/10 on.
-std::string point_lamp(const driver::Opened& opened, const light::HungLamp& lamp) {
+std::string point_lamp(const driver::Opened& opened, const light::PlacedLamp& lamp) {
   constexpr double kFadeDistance = 0.001;
   const geometry::Point p = geometry::inverse(opened.eye.room_from_eye) * lamp.centre.floor;
   const double gain = opened.scene.exposure / (8 * std::numbers::pi * std::numbers::pi * kFadeDistance * kFadeDistance);
@@ -70,11 +70,11 @@ std::string point_lamp(const driver::Opened& opened, const light::HungLamp& lamp
 
 /// The room and its lamps, instead of the room with its light in an atlas.
 Result<std::string> lit_room(const driver::Opened& opened) {
-  const auto hung = light::hang_lamps(opened.scene, opened.room->room);
+  const auto hung = light::place_lamps(opened.scene, opened.room->room);
   if (!hung) return hung.error();
   std::string text;
   for (const place::PlacedMesh& part : opened.room->parts) text += matte_part(opened, part);
-  for (const light::HungLamp& lamp : hung->lamps) text += point_lamp(opened, lamp);
+  for (const light::PlacedLamp& lamp : hung->lamps) text += point_lamp(opened, lamp);
   return text;
 }
 

@@ -3,15 +3,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/light/connection.h"
 #include "compiler/light/guide.h"
-#include "compiler/light/way.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/place/locate.h"
 #include "compiler/room/realise.h"
 #include "compiler/room/room.h"
 #include "compiler/scene/defaults.h"
-#include "compiler/surface/random.h"
+#include "compiler/surface/sampling.h"
 #include "compiler/trace/analytic.h"
 
 using namespace orbc;
@@ -23,7 +23,7 @@ constexpr double kPi = std::numbers::pi;
 
 struct Lit {
   place::PlacedRoom room;
-  light::LightField field;
+  light::LightingContext lighting;
 };
 
 Lit lit(const char* notation, double height, bool mirrors, scene::LampKind kind = scene::LampKind::point) {
@@ -38,8 +38,8 @@ Lit lit(const char* notation, double height, bool mirrors, scene::LampKind kind 
   s.lamps = {lamp};
   Lit l{place::furnish(s, room::realise(s.orbifold, s.room.shape).value()).value().room, {}};
   light::LightOptions options;
-  options.bounces = 0, options.passes = 4, options.cut = 0;
-  l.field = light::prepare_light(s, l.room, options).value();
+  options.bounces = 0, options.indirect_bounces = 4, options.cull_below = 0;
+  l.lighting = light::prepare_light(s, l.room, options).value();
   return l;
 }
 
@@ -53,12 +53,12 @@ TEST_CASE("guided directions weigh the hemisphere as the cosine does", "[light]"
       for (int place = 0; place < 6; ++place) {
         const double phi = 2 * kPi * random.next(), r = place::reach(l.room.room, phi) * random.next();
         const geometry::Point at = geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
-        const surface::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
-        const light::Guide guide = light::guide_at(l.field, point);
+        const surface::ShadingPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
+        const light::Guide guide = light::guide_at(l.lighting, point);
         double ones = 0, heights = 0, squares = 0;
         constexpr int kCount = 40000;
         for (int i = 0; i < kCount; ++i) {
-          const light::Chosen c = light::choose(guide, random.next_three());
+          const light::DirectionSample c = light::sample_direction(guide, random.next_three());
           ones += c.weight, heights += c.weight * c.direction.z, squares += c.weight * c.weight;
         }
         const double error = std::sqrt(squares / kCount / kCount);
@@ -72,16 +72,16 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
   // Power per area by the falloff, times area, against the share of directions that lead there: in all three spaces, from the lamp's side.
   for (const char* notation : {"*222", "*2222", "*22222"}) {
     const Lit l = lit(notation, 0.8, false);
-    const geometry::Position lamp = l.field.lamps[0].centre;
+    const geometry::Position lamp = l.lighting.lamps[0].centre;
     const Space space = l.room.room.space;
     surface::Random random(5);
     constexpr int kCount = 400000;
     double by_directions = 0;
     for (int i = 0; i < kCount; ++i) {
       const double z = 2 * random.next() - 1, turn = 2 * kPi * random.next(), h = std::sqrt(1 - z * z);
-      const surface::Frame frame = surface::frame_at(space, lamp.floor);
-      const trace::Ray ray = trace::ray_from(space, lamp, surface::global(frame, {h * std::cos(turn), h * std::sin(turn), z}));
-      const trace::Hit hit = trace::closest(l.field.scene, ray);
+      const surface::TangentFrame frame = surface::tangent_frame(space, lamp.floor);
+      const trace::Ray ray = trace::ray_from(space, lamp, surface::to_ambient(frame, {h * std::cos(turn), h * std::sin(turn), z}));
+      const trace::Hit hit = trace::closest(l.lighting.scene, ray);
       const geometry::Position at = trace::position_at(space, ray, hit.t);
       by_directions += hit.target == trace::Target::floor && geometry::distance(space, at.floor, {}) < 0.25;
     }
@@ -92,7 +92,7 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
       for (int j = 0; j < kSteps; ++j) {
         const double r = 0.25 * (i + 0.5) / kSteps, phi = 2 * kPi * (j + 0.5) / kSteps;
         const geometry::Point at = geometry::point_along(space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
-        by_falloff += light::irradiance(l.field, {{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false}).r * geometry::sin_k(space, r) * 0.25 /
+        by_falloff += light::irradiance(l.lighting, {{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false}).r * geometry::sin_k(space, r) * 0.25 /
                       kSteps * 2 * kPi / kSteps;
       }
     INFO(notation << ": " << by_directions << ", " << by_falloff);
@@ -109,8 +109,8 @@ TEST_CASE("the light of a lamp, asked at random places of a closed room, is its 
       const room::Room& room = l.room.room;
       surface::Random random(17);
       double sum = 0, squares = 0;
-      const auto add = [&](const surface::LightPoint& point, double area) {
-        const double flux = area * light::irradiance(l.field, point).r;
+      const auto add = [&](const surface::ShadingPoint& point, double area) {
+        const double flux = area * light::irradiance(l.lighting, point).r;
         sum += flux, squares += flux * flux;
       };
       const int kCount = kind == scene::LampKind::spot ? 240000 : 40000;  // little of the room is lit by a spot
@@ -153,12 +153,12 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
           if (!(from_floor ? in_floor_patch(at) : in_ceiling_patch(at))) continue;
           const double area = geometry::sin_k(space, r) * reach * 2 * kPi / kCount, up = from_floor ? 1 : -1;
           const double z = from_floor ? 0 : l.room.height;
-          const surface::LightPoint point{{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false};
-          const light::Chosen chosen = light::choose(light::guide_at(l.field, point), random.next_three());
+          const surface::ShadingPoint point{{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false};
+          const light::DirectionSample chosen = light::sample_direction(light::guide_at(l.lighting, point), random.next_three());
           if (chosen.weight <= 0) continue;
           trace::FollowOptions follow;
           follow.max_bounces = 40;
-          const trace::Path path = trace::follow(l.field.scene, light::leaving(l.field, point, chosen.direction), follow);
+          const trace::Path path = trace::follow(l.lighting.scene, light::spawn_ray(l.lighting, point, chosen.direction), follow);
           if (path.hit.target != (from_floor ? trace::Target::ceiling : trace::Target::floor)) continue;
           const geometry::Point end = trace::position_at(space, path.last, path.hit.t).floor;
           if (!(from_floor ? in_ceiling_patch(end) : in_floor_patch(end))) continue;

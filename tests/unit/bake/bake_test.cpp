@@ -30,14 +30,14 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   const Lit l = lit(scene, 1);
   bake::BakeOptions options;
   options.coarse = 12, options.fine = 48;
-  const bake::Baked baked = bake::bake(l.room, l.field, options, serial_executor()).value();
+  const bake::Baked baked = bake::bake(l.room, l.lighting, options, serial_executor()).value();
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     for (std::size_t i = count; i-- > 0;) task(i);
   };
-  CHECK(bake::bake(l.room, l.field, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
+  CHECK(bake::bake(l.room, l.lighting, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
   CHECK(baked.atlas.image16.rgb.empty());
   options.with_image16 = true;
-  const bake::Atlas deep = bake::bake(l.room, l.field, options, serial_executor())->atlas;
+  const bake::Atlas deep = bake::bake(l.room, l.lighting, options, serial_executor())->atlas;
   REQUIRE(deep.image.rgba == baked.atlas.image.rgba);
   REQUIRE(deep.image16.rgb.size() == deep.image.rgba.size() / 4 * 3);
   std::size_t finer = 0;
@@ -55,9 +55,9 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
     REQUIRE(baked.atlas.room.parts[p].triangles.size() == part.triangles.size());
     for (std::size_t t = 0; t < part.triangles.size(); t += 7) {
       const std::array<double, 3> b{0.3, 0.5, 0.2};
-      const scene::Color e = light::irradiance(l.field, surface::light_point(l.room, part, l.field.normals[p], t, b));
+      const scene::Color e = light::irradiance(l.lighting, surface::shading_point(l.room, part, l.lighting.normals[p], t, b));
       const place::Look& look = l.room.looks[part.look[t]];
-      const double expected = 255 * image::encode_srgb(light::radiance_out(l.field, look.material, look.color, e).g);
+      const double expected = 255 * image::encode_srgb(light::outgoing_radiance(l.lighting, look.material, look.color, e).g);
       double u = 0, v = 0;
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t id = baked.atlas.room.parts[p].triangles[t][k];
@@ -86,7 +86,7 @@ TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the 
   const Lit l = lit(scene, 0);
   bake::BakeOptions options;
   options.coarse = 6, options.fine = 24;
-  const bake::Baked baked = bake::bake(l.room, l.field, options, serial_executor()).value();
+  const bake::Baked baked = bake::bake(l.room, l.lighting, options, serial_executor()).value();
   const image::Image& image = baked.atlas.image;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
     std::vector<const bake::Box*> box(l.room.parts[p].triangles.size(), nullptr);

@@ -7,7 +7,7 @@
 #include "compiler/cover/unfold.h"
 #include "compiler/image/image.h"
 #include "compiler/image/srgb.h"
-#include "compiler/light/way.h"
+#include "compiler/light/connection.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
@@ -53,10 +53,10 @@ Stage stage(const std::string& orbifold, int bounces, scene::MaterialKind kind) 
   return s;
 }
 
-bake::Baked baked_of(const Stage& s, const light::LightField& field) {
+bake::Baked baked_of(const Stage& s, const light::LightingContext& lighting) {
   bake::BakeOptions options;
   options.coarse = 8, options.fine = 16;
-  return bake::bake(s.room, field, options, serial_executor()).value();
+  return bake::bake(s.room, lighting, options, serial_executor()).value();
 }
 
 }  // namespace
@@ -76,9 +76,9 @@ TEST_CASE("a point of a copy sees the eye where real mirrors bring its light to 
       if (exit.surface < 0) break;
       ray = trace::reflected_in_wall(prism, ray, exit.t, exit.surface);
     }
-    const light::Way rest = light::way_to(space, {ray.at, ray.z}, eye, 0);
+    const light::Connection rest = light::connect(space, {ray.at, ray.z}, eye, 0);
     INFO(orbifold << " copy " << cover::to_string(copy.word) << " sheet " << copy.sheet);
-    CHECK(trace::inner(space, rest.start, {ray.c * ray.along, ray.m}) == Approx(1).margin(1e-9));
+    CHECK(trace::inner(space, rest.direction, {ray.c * ray.along, ray.m}) == Approx(1).margin(1e-9));
     seen += copy.sheet > 0;
   }
   CHECK((orbifold != "*" || seen > 0));
@@ -86,11 +86,11 @@ TEST_CASE("a point of a copy sees the eye where real mirrors bring its light to 
 
 TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, copy by copy", "[bake]") {
   const Stage s = stage("*333", 2, scene::MaterialKind::glossy);
-  const auto field = light::prepare_light(s.scene, s.room).value();
-  REQUIRE(bake::needs_highlights(s.room, field));
-  bake::Baked baked = baked_of(s, field);
+  const auto lighting = light::prepare_light(s.scene, s.room).value();
+  REQUIRE(bake::needs_highlights(s.room, lighting));
+  bake::Baked baked = baked_of(s, lighting);
   const image::Image before = baked.atlas.image;
-  const auto shine = bake::bake_highlights(s.room, field, s.copies, {}, s.eye, {}, baked, serial_executor());
+  const auto shine = bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, {}, baked, serial_executor());
   REQUIRE(shine.own.size() > s.copies.size() / 2);
   CHECK(shine.counts.left_out == 0);
   double brightest = 0;
@@ -103,18 +103,18 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = vertices.triangles[t][k];
         if (own.uv[v] == baked.atlas.uv[own.part][v]) continue;
-        const surface::LightPoint point =
-            surface::light_point(s.room, part, field.normals[own.part].vertices[field.normals[own.part].corners[t][k]]);
+        const surface::ShadingPoint point =
+            surface::shading_point(s.room, part, lighting.normals[own.part].vertices[lighting.normals[own.part].corners[t][k]]);
         const scene::Material& material = s.room.looks[part.look[t]].material;
         const scene::Color gloss =
-            light::highlight(field, point, bake::direction_to_eye(s.copies[own.copy], s.eye, point.at), material, material.color);
-        const scene::Color all = light::radiance_out(field, material, material.color, light::irradiance(field, point)) + gloss;
+            light::highlight(lighting, point, bake::direction_to_eye(s.copies[own.copy], s.eye, point.at), material, material.color);
+        const scene::Color all = light::outgoing_radiance(lighting, material, material.color, light::irradiance(lighting, point)) + gloss;
         const int x = static_cast<int>(static_cast<double>(own.uv[v][0]) * baked.atlas.image.width),
                   y = static_cast<int>(static_cast<double>(own.uv[v][1]) * baked.atlas.image.height);
         const int code =
             baked.atlas.image
                 .rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(baked.atlas.image.width) + static_cast<std::size_t>(x))];
-        CHECK(code == Approx(255 * image::encode_srgb(std::min(1.0, field.exposure * all.r))).margin(2.1));
+        CHECK(code == Approx(255 * image::encode_srgb(std::min(1.0, lighting.exposure * all.r))).margin(2.1));
         brightest = std::max(brightest, gloss.r);
         ++checked;
       }
@@ -129,13 +129,13 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
 
 TEST_CASE("highlights are the same bytes for any executor, and none are baked for matte rooms", "[bake]") {
   const Stage s = stage("*22222", 1, scene::MaterialKind::glossy);
-  const auto field = light::prepare_light(s.scene, s.room).value();
-  bake::Baked one = baked_of(s, field), other = one;
+  const auto lighting = light::prepare_light(s.scene, s.room).value();
+  bake::Baked one = baked_of(s, lighting), other = one;
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     for (std::size_t i = count; i-- > 0;) task(i);
   };
-  const auto a = bake::bake_highlights(s.room, field, s.copies, {}, s.eye, {}, one, serial_executor());
-  const auto b = bake::bake_highlights(s.room, field, s.copies, {}, s.eye, {}, other, backwards);
+  const auto a = bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, {}, one, serial_executor());
+  const auto b = bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, {}, other, backwards);
   CHECK(one.atlas.image.rgba == other.atlas.image.rgba);
   REQUIRE(a.own.size() == b.own.size());
   for (std::size_t i = 0; i < a.own.size(); ++i) CHECK((a.own[i].copy == b.own[i].copy && a.own[i].uv == b.own[i].uv));
@@ -170,8 +170,8 @@ TEST_CASE("a side takes as many pixels in the picture as its ends lie apart ther
     for (const cover::Copy& copy : s.copies) {
       const bake::EyeImage eye = bake::image_of(copy, s.eye);
       const geometry::Position at{geometry::Point(), 0.3};
-      const light::Way sight = bake::way_to(eye, at);
-      REQUIRE(sight.exists);
+      const light::Connection sight = bake::connect(eye, at);
+      REQUIRE(sight.valid);
       const double step = 1e-5;
       for (const double turn : {0.2, 1.3, 2.9}) {
         for (const double rise : {0.0, 0.7}) {
@@ -193,13 +193,13 @@ TEST_CASE("a side takes as many pixels in the picture as its ends lie apart ther
 
 TEST_CASE("what lies beside the picture has coarser highlights, what lies in it keeps them", "[bake]") {
   Stage s = stage("*333", 0, scene::MaterialKind::glossy);
-  const auto field = light::prepare_light(s.scene, s.room).value();
-  const bake::Baked shared = baked_of(s, field);
+  const auto lighting = light::prepare_light(s.scene, s.room).value();
+  const bake::Baked shared = baked_of(s, lighting);
   const auto texels = [&](double coarser) {
     bake::Baked baked = shared;
     bake::HighlightOptions options;
     options.coarser_beside = coarser;
-    return bake::bake_highlights(s.room, field, s.copies, {}, s.eye, options, baked, serial_executor()).counts.texels;
+    return bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, options, baked, serial_executor()).counts.texels;
   };
   const place::PlacedMesh& ball = s.room.parts[s.room.parts.size() - 1];
   s.eye.forward = *bake::direction_from_eye(s.copies[0], s.eye, {ball.floor[7], ball.z[7]});

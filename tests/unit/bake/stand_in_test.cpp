@@ -4,13 +4,13 @@
 
 #include "compiler/bake/bake.h"
 #include "compiler/geometry/point.h"
-#include "compiler/light/way.h"
+#include "compiler/light/connection.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
-#include "compiler/mesh_io/load.h"
-#include "compiler/surface/frame.h"
+#include "compiler/surface/tangent_frame.h"
 
 using namespace orbc;
 
@@ -19,7 +19,7 @@ namespace {
 struct LitStandIn {
   scene::Scene scene;
   place::PlacedRoom room;
-  light::LightField field;
+  light::LightingContext lighting;
 };
 
 LitStandIn lit(const std::string& orbifold, int passes = 0) {
@@ -35,9 +35,9 @@ LitStandIn lit(const std::string& orbifold, int passes = 0) {
   LitStandIn result{
       scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room, {}};
   light::LightOptions options;
-  options.cut = 0;
-  options.passes = passes;
-  result.field = light::prepare_light(result.scene, result.room, options).value();
+  options.cull_below = 0;
+  options.indirect_bounces = passes;
+  result.lighting = light::prepare_light(result.scene, result.room, options).value();
   return result;
 }
 
@@ -49,13 +49,13 @@ TEST_CASE("a point of a coarser level is lit as the surface just there, not as i
   std::size_t sides = 0;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
     const place::PlacedMesh& part = l.room.parts[p];
-    if (part.kind != place::PartKind::object || light::lamp_of(part) >= 0) continue;
+    if (part.kind != place::PartKind::object || light::lamp_of_part(part) >= 0) continue;
     for (std::size_t t = 0; t < part.triangles.size(); ++t) {
-      const surface::LightPoint on = surface::light_point(l.room, part, l.field.normals[p], t, {0.3, 0.5, 0.2});
+      const surface::ShadingPoint on = surface::shading_point(l.room, part, l.lighting.normals[p], t, {0.3, 0.5, 0.2});
       // Long blocks reach beyond the other side; and normals of a level are not quite those of the part.
-      surface::LightPoint turned = on;
-      turned.normal = on.flat;
-      const surface::LightPoint there = light::on_surface(l.field, turned, 0.15).point;
+      surface::ShadingPoint turned = on;
+      turned.normal = on.geometric_normal;
+      const surface::ShadingPoint there = light::project_to_surface(l.lighting, turned, 0.15).point;
       CHECK(trace::inner(space, there.normal, on.normal) == Approx(1).margin(1e-6));
       CHECK(geometry::distance(space, there.at.floor, on.at.floor) + std::fabs(there.at.z - on.at.z) < 1e-6);
       ++sides;
@@ -67,13 +67,15 @@ TEST_CASE("a point of a coarser level is lit as the surface just there, not as i
 TEST_CASE("a level that is the part itself has its light", "[bake]") {
   const int passes = GENERATE(0, 6);
   const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"), passes);
-  const auto is_cylinder = [](const place::PlacedMesh& part) { return part.kind == place::PartKind::object && light::lamp_of(part) < 0; };
+  const auto is_cylinder = [](const place::PlacedMesh& part) {
+    return part.kind == place::PartKind::object && light::lamp_of_part(part) < 0;
+  };
   const auto p = static_cast<std::size_t>(std::find_if(l.room.parts.begin(), l.room.parts.end(), is_cylinder) - l.room.parts.begin());
   place::PlacedRoom both = l.room;
   both.parts.push_back(l.room.parts[p]);
   scene::BakeSpec draft;
   draft.quality = scene::BakeQuality::draft;
-  const bake::Baked baked = bake::bake(both, l.field, bake::bake_options(draft), serial_executor()).value();
+  const bake::Baked baked = bake::bake(both, l.lighting, bake::bake_options(draft), serial_executor()).value();
   const auto green = [&](const bake::Box& box, double u, double v) {
     const int x = box.x + static_cast<int>(std::lround(u * (box.width - 1))),
               y = box.y + static_cast<int>(std::lround(v * (box.height - 1)));
@@ -107,8 +109,8 @@ TEST_CASE("frames are lit at their mirrors as just before them", "[bake]") {
         if (!on_mirror(k + 1) || !on_mirror(k + 2)) continue;
         std::array<double, 3> at{0.5, 0.5, 0.5}, before{0.499, 0.499, 0.499};
         at[k] = 0, before[k] = 0.002;
-        const double there = light::irradiance(l.field, surface::light_point(l.room, part, l.field.normals[p], t, at)).g;
-        const double near = light::irradiance(l.field, surface::light_point(l.room, part, l.field.normals[p], t, before)).g;
+        const double there = light::irradiance(l.lighting, surface::shading_point(l.room, part, l.lighting.normals[p], t, at)).g;
+        const double near = light::irradiance(l.lighting, surface::shading_point(l.room, part, l.lighting.normals[p], t, before)).g;
         ++asked;
         off += std::fabs(there - near) > 0.05 * std::max(there, near);
       }

@@ -6,12 +6,12 @@
 #include <random>
 
 #include "compiler/bake/bake.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/place/locate.h"
 #include "compiler/room/realise.h"
 #include "compiler/room/room.h"
-#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;
@@ -51,7 +51,7 @@ double missed(const Plain& p, const bake::SurfaceMap& map, const Position& at, t
   std::size_t i = static_cast<std::size_t>(found.block), part = 0;
   while (i >= p.blocks[part].size()) i -= p.blocks[part++].size();
   const bake::InTriangle in = bake::in_triangle(p.blocks[part][i], static_cast<double>(found.u), static_cast<double>(found.v));
-  const Position there = surface::light_point(p.room, p.room.parts[part], p.normals[part], in.triangle, in.b).at;
+  const Position there = surface::shading_point(p.room, p.room.parts[part], p.normals[part], in.triangle, in.b).at;
   return std::hypot(geometry::distance(p.room.room.space, there.floor, at.floor), there.z - at.z);
 }
 
@@ -95,8 +95,8 @@ TEST_CASE("light passed on in half spheres and lunes is a number everywhere", "[
     scene.bake.samples = 16;
     const place::PlacedRoom room =
         place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
-    const light::LightField field = light::prepare_light(scene, room, bake::baked_light_options(scene)).value();
-    const bake::Baked baked = bake::bake(room, field, bake::bake_options(scene.bake), serial_executor()).value();
+    const light::LightingContext lighting = light::prepare_light(scene, room, bake::baked_light_options(scene)).value();
+    const bake::Baked baked = bake::bake(room, lighting, bake::bake_options(scene.bake), serial_executor()).value();
     // Black texels are what no numbers become.
     std::size_t black = 0;
     for (std::size_t part = 0; part < baked.boxes.size(); ++part)

@@ -5,12 +5,12 @@
 #include "compiler/driver/levels.h"
 #include "compiler/geometry/point.h"
 #include "compiler/image/srgb.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
-#include "compiler/mesh_io/load.h"
-#include "compiler/surface/frame.h"
+#include "compiler/surface/tangent_frame.h"
 
 using namespace orbc;
 
@@ -30,8 +30,8 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
       place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
   const geometry::Space space = room.room.space;
   light::LightOptions lit;
-  lit.passes = 8, lit.bounces = 2;
-  const light::LightField field = light::prepare_light(scene, room, lit).value();
+  lit.indirect_bounces = 8, lit.bounces = 2;
+  const light::LightingContext lighting = light::prepare_light(scene, room, lit).value();
 
   const driver::Levels levels = driver::make_levels(room, serial_executor());
   place::PlacedRoom both = room;
@@ -39,10 +39,10 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
     if (!levels[p].empty()) both.parts.push_back(levels[p].back().mesh);
   REQUIRE(both.parts.size() == room.parts.size() + 1);
   const place::PlacedMesh& coarse = both.parts.back();
-  const bake::Baked baked = bake::bake(both, field, bake::BakeOptions{}, serial_executor()).value();
+  const bake::Baked baked = bake::bake(both, lighting, bake::BakeOptions{}, serial_executor()).value();
   const bake::BakedLight known(room, baked);
   // Its light is that of the box: fewer points of it are asked than it has vertices.
-  const bake::Baked alone = bake::bake(room, field, bake::BakeOptions{}, serial_executor()).value();
+  const bake::Baked alone = bake::bake(room, lighting, bake::BakeOptions{}, serial_executor()).value();
   CHECK(baked.counts.points < alone.counts.points + coarse.floor.size());
 
   const surface::PartNormals normals = surface::part_normals(both, coarse);
@@ -54,19 +54,19 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
       for (const double v : {0.01, 0.3, 0.7, 0.99}) {
         if (block.second < 0 && u + v > 1) continue;
         const bake::InTriangle in = bake::in_triangle(block, u, v);
-        const surface::LightPoint at = surface::light_point(both, coarse, normals, in.triangle, in.b);
+        const surface::ShadingPoint at = surface::shading_point(both, coarse, normals, in.triangle, in.b);
         if (at.at.z < 0.01) continue;
         // What the box itself shows there, seen from just before it.
-        const surface::Frame frame = surface::frame_at(space, at.at.floor);
-        const geometry::Vector3 out = surface::local(space, frame, at.flat);
+        const surface::TangentFrame frame = surface::tangent_frame(space, at.at.floor);
+        const geometry::Vector3 out = surface::to_local(space, frame, at.geometric_normal);
         const geometry::Position before = surface::exponential(space, at.at, frame, 0.02 * out);
-        const surface::Frame there = surface::frame_at(space, before.floor);
-        const trace::Ray ray = trace::ray_from(space, before, surface::global(there, -1.0 * out));
-        const trace::Hit hit = trace::closest_triangle(field.scene, ray, 0.05);
+        const surface::TangentFrame there = surface::tangent_frame(space, before.floor);
+        const trace::Ray ray = trace::ray_from(space, before, surface::to_ambient(there, -1.0 * out));
+        const trace::Hit hit = trace::closest_triangle(lighting.scene, ray, 0.05);
         if (hit.target != trace::Target::triangle) continue;
-        const trace::SurfacePoint seen = trace::surface_at(field.scene, ray, hit);
+        const trace::SurfacePoint seen = trace::surface_at(lighting.scene, ray, hit);
         const auto shown = known.at(seen, hit);
-        if (!shown || trace::inner(space, light::light_point(field, room, seen, hit).normal, at.normal) < 0.7) continue;
+        if (!shown || trace::inner(space, light::shading_point(lighting, room, seen, hit).normal, at.normal) < 0.7) continue;
         const auto x = static_cast<int>(std::lround(u * (box.width - 1))), y = static_cast<int>(std::lround(v * (box.height - 1)));
         const double texel = baked.atlas.image.rgba[4 * static_cast<std::size_t>((box.y + y) * baked.atlas.image.width + box.x + x) + 1];
         ++compared;

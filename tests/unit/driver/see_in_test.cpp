@@ -12,7 +12,7 @@
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/trace.h"
 #include "compiler/render/draw.h"
-#include "compiler/render/shade.h"
+#include "compiler/render/radiance.h"
 
 using namespace orbc;
 
@@ -46,12 +46,12 @@ TEST_CASE("what is seen in mirrors, metals and glass of any copy is what the eye
       const auto traced = trace::prepare(*scene.room);
       const auto light = light::prepare_light(scene.scene, *scene.room, light::light_options(scene.scene)).value();
       render::DrawOptions draw = driver::draw_options(scene, light, serial_executor());
-      draw.glances = 128;  // as many as exports of normal quality look for
+      draw.specular_samples = 128;  // as many as exports of normal quality look for
       const auto copies = cover::unfold(*scene.room, scene.eye, scene.scene.cover).value();
       int met = 0, same = 0, shared = 0;
       for (int y = 0; y < scene.eye.height; ++y) {
         for (int x = 0; x < scene.eye.width; ++x) {
-          const render::Seen seen = render::radiance(traced, render::eye_ray(scene.eye, x + 0.5, y + 0.5), draw);
+          const render::RayResult seen = render::radiance(traced, render::eye_ray(scene.eye, x + 0.5, y + 0.5), draw);
           const bool ball = seen.hit && seen.surface.kind == place::PartKind::object &&
                             scene.room->parts[static_cast<std::size_t>(seen.surface.part)].name == "sphere";
           if (!ball) continue;

@@ -9,7 +9,7 @@
 #include "compiler/image_io/exr.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
-#include "compiler/render/shade.h"
+#include "compiler/render/radiance.h"
 #include "compiler/room/realise.h"
 #include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
@@ -105,10 +105,10 @@ TEST_CASE("drawn in streams the film is that of single rays, bit by bit", "[rend
       scene::Scene s;
       const place::PlacedRoom room = furnished_room(notation, lamp, s);
       const trace::TraceScene scene = trace::prepare(room);
-      const light::LightField light = *light::prepare_light(s, room);
+      const light::LightingContext light = *light::prepare_light(s, room);
       render::DrawOptions options;
       options.samples = 3;
-      if (lamp) options.light = &light;
+      if (lamp) options.lighting = &light;
       const place::Eye eye = eye_in(room);
       const render::Film film = render::draw(scene, eye, options, serial_executor());
       const auto points = render::sample_points(options.samples);
@@ -118,8 +118,9 @@ TEST_CASE("drawn in streams the film is that of single rays, bit by bit", "[rend
           scene::Color sum;
           const auto pixel = static_cast<std::size_t>(y * eye.width + x);
           for (std::size_t i = 0; i < points.size(); ++i) {
-            const render::Chance chance(light.options.seed, pixel, static_cast<int>(i), options.samples);
-            const render::Seen seen = render::radiance(scene, render::eye_ray(eye, x + points[i][0], y + points[i][1]), options, chance);
+            const render::PixelSampler sampler(light.options.seed, pixel, static_cast<int>(i), options.samples);
+            const render::RayResult seen =
+                render::radiance(scene, render::eye_ray(eye, x + points[i][0], y + points[i][1]), options, sampler);
             sum = sum + seen.radiance;
             if (i > 0) continue;
             different +=
@@ -224,9 +225,9 @@ TEST_CASE("threads prepare and draw what one alone does", "[render][threads]") {
     const place::PlacedRoom room = furnished_room("*22222", lamp, s);
     const auto film = [&](const Executor& executor) {
       const trace::TraceScene scene = trace::prepare(room, executor);
-      const light::LightField light = *light::prepare_light(s, room, {}, executor);
+      const light::LightingContext light = *light::prepare_light(s, room, {}, executor);
       render::DrawOptions options;
-      if (lamp) options.light = &light;
+      if (lamp) options.lighting = &light;
       place::Eye eye = eye_in(room);
       eye.width = 48, eye.height = 40;
       return image_io::encode_exr(render::to_float_image(render::draw(scene, eye, options, executor)));

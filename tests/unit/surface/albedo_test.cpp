@@ -31,7 +31,7 @@ TEST_CASE("floor, ceiling and walls are cut from one stone, the same for a trian
           sum = sum + b[k] * part.floor[part.triangles[t][k]], point.at.z += b[k] * part.z[part.triangles[t][k]];
         point.at.floor = geometry::normalised_point(room.room.space, sum);
         point.part = static_cast<int>(p), point.look = part.look[t];
-        const scene::Color here = surface::triangle_albedo(room, part, t, b), there = surface::surface_color(room, point);
+        const scene::Color here = surface::triangle_albedo(room, part, t, b), there = surface::hit_albedo(room, point);
         CHECK(here.g == Approx(there.g).margin(1e-12));
         veins += here.g < 0.6;
         ++compared;

@@ -1,4 +1,4 @@
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "compiler/room/realise.h"
 #include "compiler/room/room.h"
 #include "compiler/scene/defaults.h"
-#include "compiler/surface/frame.h"
+#include "compiler/surface/tangent_frame.h"
 #include "compiler/trace/analytic.h"
 #include "tests/support/lit_room.h"
 
@@ -28,7 +28,7 @@ namespace {
 constexpr double kHalfTurn = std::numbers::pi;
 
 double on_floor(const Lit& l, const geometry::Point& p, double z, double up) {
-  return light::irradiance(l.field, {{p, z}, {{0, 0, 0}, up}, {p, z}, -1, false}).r;
+  return light::irradiance(l.lighting, {{p, z}, {{0, 0, 0}, up}, {p, z}, -1, false}).r;
 }
 
 // Power that arrives on floor, ceiling and walls together: midpoint sums over polar coordinates and over (arc, height).
@@ -50,7 +50,7 @@ double flux(const Lit& l) {
       for (int j = 0; j < kAlong; ++j) {
         const Position at{room::point_on_wall(room, w, room.walls[w].length * (i + 0.5) / kAlong), height * (j + 0.5) / kAlong};
         sum += room.walls[w].length / kAlong * height / kAlong *
-               light::irradiance(l.field, {at, trace::normal_of_wall(room.space, room.walls[w]), at, w, false}).r;
+               light::irradiance(l.lighting, {at, trace::normal_of_wall(room.space, room.walls[w]), at, w, false}).r;
       }
   return sum;
 }
@@ -109,7 +109,7 @@ TEST_CASE("light over a mirror is the light of an image behind it, times the ref
   const Lit straight = lit(scene, 0), once = lit(scene, 1);
   const geometry::Point p = geometry::point_from_log(Space::euclidean, {0.05, -0.1});
   double expected = on_floor(straight, p, 0, 1);
-  const Position lamp = straight.field.lamps[0].centre;
+  const Position lamp = straight.lighting.lamps[0].centre;
   for (int w = 0; w < 4; ++w) {
     const geometry::Point image = room::reflection_in_wall(straight.room.room, w) * lamp.floor;
     const double l = std::hypot(geometry::distance(Space::euclidean, image, p), lamp.z);
@@ -121,9 +121,9 @@ TEST_CASE("light over a mirror is the light of an image behind it, times the ref
 TEST_CASE("on a half sphere light comes back from the mirror, past the antipode", "[light]") {
   scene::Scene scene = lit_scene("*", scene::LampKind::point, true);
   const Lit l = lit(scene, 2);
-  REQUIRE(l.field.images.size() == 5);  // straight, and around both ways; by the mirror, near and far
+  REQUIRE(l.lighting.images.size() == 5);  // straight, and around both ways; by the mirror, near and far
   const geometry::Point p = geometry::point_from_log(Space::spherical, {-0.4, 0.3});
-  const Position lamp = l.field.lamps[0].centre;
+  const Position lamp = l.lighting.lamps[0].centre;
   double expected = 0;
   const double d = geometry::distance(Space::spherical, p, lamp.floor);
   const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.room.room, 0) * lamp.floor);
@@ -139,15 +139,15 @@ TEST_CASE("on a half sphere light comes back from the mirror, past the antipode"
 TEST_CASE("rooms that are no orbifolds get each image only through its own mirrors", "[light]") {
   scene::Scene scene = scene::default_scene(notation::parse("*2222").value());
   const Lit by_group = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
-  std::vector<light::LampImage> images = by_group.field.images;
+  std::vector<light::LampImage> images = by_group.lighting.images;
   CHECK(images.size() == 13);
   // The same room, asked word by word, gives the same light.
   Lit by_words = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
   place::PlacedRoom other = by_words.room;
   other.room.orbifold.corners[0] = Rational(5, 2);  // only what decides how images are listed
-  by_words.field.images = light::lamp_images(by_words.field.lamps, other).value();
-  by_words.field.near = light::near_images(by_words.field, serial_executor());
-  CHECK(by_words.field.images.size() == 1 + 4 + 12);
+  by_words.lighting.images = light::lamp_images(by_words.lighting.lamps, other).value();
+  by_words.lighting.cull_grid = light::make_light_cull_grid(by_words.lighting, serial_executor());
+  CHECK(by_words.lighting.images.size() == 1 + 4 + 12);
   for (const double x : {0.03, 0.21, -0.17}) {
     const geometry::Point p = geometry::point_from_log(Space::euclidean, {x, 0.111});
     CHECK(on_floor(by_words, p, 0, 1) == Approx(on_floor(by_group, p, 0, 1)).epsilon(1e-9));
@@ -158,12 +158,12 @@ TEST_CASE("a lamp that reaches through a wall is refused; one without power is t
   scene::Scene scene = lit_scene("*2222", scene::LampKind::sphere, true);
   scene.lamps[0].place.z = scene.room.height;
   const auto room = room::realise(scene.orbifold, scene.room.shape).value();
-  const auto refused = light::hang_lamps(scene, room);
+  const auto refused = light::place_lamps(scene, room);
   REQUIRE_FALSE(refused.has_value());
   CHECK(refused.error().front().code == "light.lamp-in-wall");
   scene.lamps[0].place.z = 0.5;
   scene.lamps[0].power = 0;
-  CHECK(light::hang_lamps(scene, room)->warnings.front().code == "light.no-power");
+  CHECK(light::place_lamps(scene, room)->warnings.front().code == "light.no-power");
 }
 
 TEST_CASE("the samples of a pixel together see the light that one alone sees, with fewer shadow rays each", "[light]") {
@@ -172,23 +172,23 @@ TEST_CASE("the samples of a pixel together see the light that one alone sees, wi
       scene::Scene scene = lit_scene(orbifold, kind, true);
       scene.lamps.front().power = 3;
       const Lit l = lit(scene, 3);
-      REQUIRE(l.field.images.size() > 5);
+      REQUIRE(l.lighting.images.size() > 5);
       for (const int samples : {2, 4, 9, 16, 64}) {
         double most = 0, spread = 0;
         for (int k = 0; k < 20; ++k) {
           const geometry::Point p =
               geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
-          const surface::LightPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
-          const double whole = light::irradiance(l.field, point).r / kHalfTurn;
+          const surface::ShadingPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
+          const double whole = light::irradiance(l.lighting, point).r / kHalfTurn;
           double sum = 0;
           for (int s = 0; s < samples; ++s) {
-            const double one = light::irradiance(l.field, point, light::Turn{s, samples}).r / kHalfTurn;
+            const double one = light::irradiance(l.lighting, point, light::SampleStratum{s, samples}).r / kHalfTurn;
             sum += one, spread = std::max(spread, std::fabs(one - whole));
           }
           most = std::max(most, std::fabs(sum / samples - whole));
         }
         INFO(orbifold << ", " << samples << " samples");
-        CHECK(most < l.field.options.step);
+        CHECK(most < l.lighting.options.max_step);
         CHECK(spread < 0.25);  // each may be off by its steps, since only the mean is seen
         if (samples == 64) CHECK(spread > 0);
       }
@@ -196,8 +196,8 @@ TEST_CASE("the samples of a pixel together see the light that one alone sees, wi
 }
 
 TEST_CASE("a white surface under E = π shows as white", "[light]") {
-  light::LightField field;
-  const scene::Color shown = light::radiance_out(field, {}, {1, 1, 1}, {kHalfTurn, kHalfTurn / 2, 0});
+  light::LightingContext lighting;
+  const scene::Color shown = light::outgoing_radiance(lighting, {}, {1, 1, 1}, {kHalfTurn, kHalfTurn / 2, 0});
   CHECK(shown.r == Approx(1));
   CHECK(shown.g == Approx(0.5));
 }

@@ -1,10 +1,10 @@
-#include "compiler/light/image.h"
+#include "compiler/light/lamp_image.h"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <string>
 
-#include "compiler/light/shade.h"
+#include "compiler/light/lighting.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
@@ -17,7 +17,7 @@ namespace {
 struct Hung {
   scene::Scene scene;
   place::PlacedRoom room;
-  std::vector<light::HungLamp> lamps;
+  std::vector<light::PlacedLamp> lamps;
 };
 
 Hung hung(const char* notation, int lamps) {
@@ -31,7 +31,7 @@ Hung hung(const char* notation, int lamps) {
   h.scene.lamps.assign(static_cast<std::size_t>(lamps), lamp);
   const room::Room room = room::realise(h.scene.orbifold, h.scene.room.shape, true).value();
   h.room = place::furnish(h.scene, room).value().room;
-  h.lamps = light::hang_lamps(h.scene, room).value().lamps;
+  h.lamps = light::place_lamps(h.scene, room).value().lamps;
   return h;
 }
 
@@ -43,18 +43,18 @@ TEST_CASE("images that give too little light are left out, and no point of the r
     const Hung h = hung(notation, 1);
     light::LightOptions options;
     options.bounces = 5;
-    light::LightField field = light::prepare_light(h.scene, h.room, options).value();
-    const std::size_t kept = field.images.size();
+    light::LightingContext lighting = light::prepare_light(h.scene, h.room, options).value();
+    const std::size_t kept = lighting.images.size();
     const auto irradiance = [&](double r, double z) {
       const geometry::Point p = geometry::point_along(h.room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), r);
-      return light::irradiance(field, {{p, z}, {{0, 0, 0}, z > 0 ? -1.0 : 1.0}, {p, z}, -1, false}).r;
+      return light::irradiance(lighting, {{p, z}, {{0, 0, 0}, z > 0 ? -1.0 : 1.0}, {p, z}, -1, false}).r;
     };
     const double reach = 0.9 * h.room.room.inradius;
     const double centre = irradiance(0, 0), rim = irradiance(reach, 0), above = irradiance(reach, h.room.height);
-    field.images = light::lamp_images(field.lamps, h.room, {5, 1, 0}).value();
-    field.near = {0, 0, 0, 0, {std::vector<std::uint32_t>(field.images.size())}};
-    for (std::uint32_t i = 0; i < field.images.size(); ++i) field.near.images[0][i] = i;
-    CHECK(kept < field.images.size());
+    lighting.images = light::lamp_images(lighting.lamps, h.room, {5, 1, 0}).value();
+    lighting.cull_grid = {0, 0, 0, 0, {std::vector<std::uint32_t>(lighting.images.size())}};
+    for (std::uint32_t i = 0; i < lighting.images.size(); ++i) lighting.cull_grid.images[0][i] = i;
+    CHECK(kept < lighting.images.size());
     CHECK(irradiance(0, 0) == Approx(centre).epsilon(1e-12));
     CHECK(irradiance(reach, 0) == Approx(rim).epsilon(1e-12));
     CHECK(irradiance(reach, h.room.height) == Approx(above).epsilon(1e-12));
@@ -82,8 +82,8 @@ TEST_CASE("what the scene says of mirrors is where too many images are reported"
   const auto source = std::make_shared<const SourceText>(SourceText{"scene.yaml", "bake: {mirrors: 12}\n"});
   many.scene.bake.mirrors = 12, many.scene.bake.mirrors_span = {source, 1, 17, 2};
   many.scene.exposure = 1e6;
-  const auto field = light::prepare_light(many.scene, many.room, light::light_options(many.scene));
-  REQUIRE_FALSE(field);
-  CHECK(field.error().front().span.line == 1);
-  CHECK(field.error().front().span.column == 17);
+  const auto lighting = light::prepare_light(many.scene, many.room, light::light_options(many.scene));
+  REQUIRE_FALSE(lighting);
+  CHECK(lighting.error().front().span.line == 1);
+  CHECK(lighting.error().front().span.column == 17);
 }

@@ -1,4 +1,4 @@
-#include "compiler/render/path.h"
+#include "compiler/render/indirect.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "compiler/image/srgb.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
-#include "compiler/render/shade.h"
+#include "compiler/render/radiance.h"
 #include "compiler/room/realise.h"
 #include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
@@ -21,7 +21,7 @@ namespace {
 struct Lit {
   scene::Scene scene;
   place::PlacedRoom room;
-  light::LightField field;
+  light::LightingContext lighting;
   trace::TraceScene traced;
 };
 
@@ -30,15 +30,15 @@ std::unique_ptr<Lit> lit(const scene::Scene& scene, int passes, int mirrors = 2)
   result->scene = scene;
   result->room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
   light::LightOptions options;
-  options.bounces = mirrors, options.passes = passes, options.cut = 0, options.leg_bounces = 400;
-  result->field = light::prepare_light(result->scene, result->room, options).value();
+  options.bounces = mirrors, options.indirect_bounces = passes, options.cull_below = 0, options.path_bounces = 400;
+  result->lighting = light::prepare_light(result->scene, result->room, options).value();
   result->traced = trace::prepare(result->room);
   return result;
 }
 
 render::DrawOptions drawing(const Lit& l, int samples) {
   render::DrawOptions options;
-  options.light = &l.field;
+  options.lighting = &l.lighting;
   options.samples = samples;
   options.paths = 2;
   options.max_bounces = 400;
@@ -180,7 +180,7 @@ TEST_CASE("gloss and metal under lamps are as bright by few samples a pixel as b
       std::vector<double> means;
       for (const int samples : {4, 9, 36}) {
         render::DrawOptions options = drawing(*l, samples);
-        options.glances = 4;  // the room is black
+        options.specular_samples = 4;  // the room is black
         const render::Film film = render::draw(l->traced, eye, options, serial_executor());
         double sum = 0;
         for (const scene::Color& c : film.color) sum += c.r;
@@ -230,9 +230,9 @@ TEST_CASE("the stated error of a path-traced film is the spread between seeds, a
   s.lamps = {lamp};
   auto l = lit(s, 16, 1);
   const auto draw = [&](std::uint64_t seed, const Executor& executor) {
-    l->field.options.seed = seed;
+    l->lighting.options.seed = seed;
     render::DrawOptions options = drawing(*l, 16);
-    options.max_bounces = l->field.options.leg_bounces = 6;
+    options.max_bounces = l->lighting.options.path_bounces = 6;
     return render::draw(l->traced, eye_in(l->room, 32, 24), options, executor);
   };
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
@@ -249,7 +249,7 @@ TEST_CASE("the stated error of a path-traced film is the spread between seeds, a
   CHECK(squares > 0);
   CHECK(std::sqrt(stated / squares) > 0.8);
   CHECK(std::sqrt(stated / squares) < 1.4);
-  CHECK(render::noise_of(a, 1) > 0);
+  CHECK(render::rms_noise(a, 1) > 0);
 }
 
 TEST_CASE("every turn of a pixel comes once, and those with one remainder are spread over the pixel", "[render]") {
@@ -257,9 +257,9 @@ TEST_CASE("every turn of a pixel comes once, and those with one remainder are sp
     const auto points = render::sample_points(samples);
     std::vector<int> seen(static_cast<std::size_t>(samples), 0);
     for (int s = 0; s < samples; ++s) {
-      const light::Turn turn = render::Chance::turn_of(s, samples);
-      CHECK(turn.of == samples);
-      ++seen.at(static_cast<std::size_t>(turn.rank));
+      const light::SampleStratum stratum = render::PixelSampler::stratum_of(s, samples);
+      CHECK(stratum.count == samples);
+      ++seen.at(static_cast<std::size_t>(stratum.index));
     }
     CHECK(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
     const int side = static_cast<int>(std::lround(std::sqrt(samples)));
@@ -268,7 +268,7 @@ TEST_CASE("every turn of a pixel comes once, and those with one remainder are sp
       for (int rest = 0; rest < every; ++rest) {  // their middle is about that of the pixel
         double x = 0, y = 0;
         for (int s = 0; s < samples; ++s)
-          if (render::Chance::turn_of(s, samples).rank % every == rest)
+          if (render::PixelSampler::stratum_of(s, samples).index % every == rest)
             x += points[static_cast<std::size_t>(s)][0], y += points[static_cast<std::size_t>(s)][1];
         INFO(samples << ": every " << every << ", " << rest);
         CHECK(std::hypot(x * every / samples - 0.5, y * every / samples - 0.5) < 0.26);
@@ -286,16 +286,16 @@ TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that
     s.lamps = {lamp};
     const auto l = lit(s, 1, 2);
     const geometry::Point at = geometry::point_along(l->room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), 0.21);
-    const surface::LightPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
+    const surface::ShadingPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
     surface::Random random(3);
     double sum = 0, squares = 0;
     constexpr int kCount = 40000;
     for (int i = 0; i < kCount; ++i) {
-      const double e = light::irradiance_guess(l->field, point, random.next_three()).r;
+      const double e = light::estimate_irradiance(l->lighting, point, random.next_three()).r;
       sum += e, squares += e * e;
     }
     const double mean = sum / kCount, error = std::sqrt((squares / kCount - mean * mean) / kCount),
-                 all = light::irradiance(l->field, point).r;
+                 all = light::irradiance(l->lighting, point).r;
     INFO(notation << ": " << mean << " ± " << error << ", all " << all);
     CHECK(std::fabs(mean - all) < 4 * error + 0.005 * all);
   }
@@ -314,7 +314,7 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
   s.lamps = {lamp};
   const auto l = lit(s, 16, 1);
   bake::BakeOptions options;
-  const bake::Baked baked = bake::bake(l->room, l->field, options, serial_executor()).value();
+  const bake::Baked baked = bake::bake(l->room, l->lighting, options, serial_executor()).value();
   const bake::BakedLight known(l->room, baked);
   int compared = 0;
   double worst = 0;
@@ -332,11 +332,12 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
         const trace::SurfacePoint point = trace::surface_at(l->traced, ray, hit);
         const auto shown = known.at(point, hit);
         if (!shown) continue;
-        const surface::LightPoint at = light::light_point(l->field, l->room, point, hit);
-        render::Chance chance(1, static_cast<std::uint64_t>(++compared), 0, 1);
-        const scene::Color passed = render::passed_on(l->room, l->field, at, chance, 3000);
-        const scene::Color truth = light::radiance_out(l->field, l->room.looks[static_cast<std::size_t>(point.look)].material,
-                                                       {0.7, 0.7, 0.7}, light::irradiance(l->field, at) + std::numbers::pi * passed);
+        const surface::ShadingPoint at = light::shading_point(l->lighting, l->room, point, hit);
+        render::PixelSampler chance(1, static_cast<std::uint64_t>(++compared), 0, 1);
+        const scene::Color passed = render::indirect_irradiance(l->room, l->lighting, at, chance, 3000);
+        const scene::Color truth =
+            light::outgoing_radiance(l->lighting, l->room.looks[static_cast<std::size_t>(point.look)].material, {0.7, 0.7, 0.7},
+                                     light::irradiance(l->lighting, at) + std::numbers::pi * passed);
         const double off = 255 * (image::encode_srgb(shown->r) - image::encode_srgb(truth.r));
         worst = std::max(worst, std::fabs(off));
         INFO("at height " << above << ", side " << side << ": baked " << shown->r << ", by paths " << truth.r);

@@ -1,0 +1,222 @@
+// The unfolding of light: a path from a surface point over mirrors to the lamp is a geodesic to the lamp's image. Walls without mirrors are
+// no letters of words, for the reason given at cover::walk_reach. Most images do not matter: in H² their number grows like e^L with the
+// length L of the path, and the light of each falls like e^-L. So copies are visited one by one, and only images that are visible somewhere
+// in the room are kept.
+#include "compiler/light/lamp_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+#include "compiler/base/elementary.h"
+#include "compiler/cover/enumerate.h"
+#include "compiler/cover/reach.h"
+#include "compiler/light/falloff.h"
+#include "compiler/notation/growth.h"
+#include "compiler/room/room.h"
+
+namespace orbc::light {
+namespace {
+
+using geometry::Isometry;
+using geometry::Position;
+using geometry::Space;
+
+/// An image of the floor: a product of reflections in walls.
+struct HorizontalImage {
+  Isometry cover_from_room;
+  int bounces = 0, sheet = 0;
+  std::vector<std::int16_t> walls;
+  bool path_specific = false;
+};
+/// An image of the height: z ↦ sign·z + shift, a product of reflections in floor and ceiling.
+struct VerticalImage {
+  double sign = 1, shift = 0;
+  int bounces = 0;
+};
+
+/// The surfaces that have mirrors.
+struct MirroredSurfaces {
+  std::vector<bool> walls;
+  bool floor = false, ceiling = false;
+  double max_throughput = 0;  ///< largest channel of any mirror
+};
+
+MirroredSurfaces mirrored_surfaces(const place::PlacedRoom& room) {
+  MirroredSurfaces mirrors;
+  mirrors.walls.assign(room.room.walls.size(), false);
+  for (const place::PlacedMirror& m : room.mirrors) {
+    if (m.wall >= 0) mirrors.walls[static_cast<std::size_t>(m.wall)] = true;
+    else (m.wall == -1 ? mirrors.floor : mirrors.ceiling) = true;
+    mirrors.max_throughput =
+        std::max({mirrors.max_throughput, m.reflectance * m.tint.r, m.reflectance * m.tint.g, m.reflectance * m.tint.b});
+  }
+  return mirrors;
+}
+
+/// Called with every image; false stops the enumeration.
+using Visitor = std::function<bool(const HorizontalImage&)>;
+
+// Orbifolds: every element of the group once.
+void visit_group(const place::PlacedRoom& room, const MirroredSurfaces& mirrors, int bounces, const Visitor& visit) {
+  std::vector<int> wall;
+  for (std::size_t i = 0; i < room.room.walls.size(); ++i)
+    if (room.room.walls[i].reflects) wall.push_back(static_cast<int>(i));
+  std::vector<Isometry> reflections;
+  bool all_mirrors = true;
+  for (const int w : wall) {
+    reflections.push_back(room::reflection_in_wall(room.room, w));
+    all_mirrors = all_mirrors && mirrors.walls[static_cast<std::size_t>(w)];
+  }
+  const bool closed = room.room.space == Space::spherical && all_mirrors;  // geodesics go on round the sphere
+  const int half_turn = closed ? notation::longest_length(room.room.orbifold).value() : 0;
+  const cover::Automaton automaton(room.room.orbifold, std::max(1, bounces));
+  cover::enumerate(automaton, reflections, bounces, [&](const cover::Element& element, const Isometry& cover_from_room) {
+    const int length = static_cast<int>(element.word.size());
+    if (length > 0 && !mirrors.walls[static_cast<std::size_t>(wall[element.word.back()])]) return cover::Walk::back;
+    if (!visit({cover_from_room, length, 0, {}, false})) return cover::Walk::stop;
+    for (int sheet = 1; closed && sheet * half_turn <= bounces; ++sheet) {
+      const int more = sheet % 2 == 0 ? sheet * half_turn + length : (sheet + 1) * half_turn - length;
+      if (more <= bounces && !visit({cover_from_room, more, sheet, {}, false})) return cover::Walk::stop;
+    }
+    return cover::Walk::deeper;
+  });
+}
+
+// Other rooms: every word of mirrors without the same letter twice in a row, from `at` on. Makes: false when `visit` has stopped.
+bool visit_words(const place::PlacedRoom& room, const MirroredSurfaces& mirrors, int bounces, const HorizontalImage& at,
+                 const Visitor& visit) {
+  if (!visit(at)) return false;
+  if (at.bounces == bounces) return true;
+  for (std::size_t w = 0; w < mirrors.walls.size(); ++w) {
+    if (!mirrors.walls[w] || (!at.walls.empty() && at.walls.back() == static_cast<std::int16_t>(w))) continue;
+    HorizontalImage next = at;
+    next.cover_from_room = geometry::renormalised(next.cover_from_room * room::reflection_in_wall(room.room, static_cast<int>(w)));
+    next.walls.push_back(static_cast<std::int16_t>(w));
+    ++next.bounces;
+    if (!visit_words(room, mirrors, bounces, next, visit)) return false;
+  }
+  return true;
+}
+
+std::vector<VerticalImage> vertical_images(const MirroredSurfaces& mirrors, double height, int bounces) {
+  std::vector<VerticalImage> images{{}};
+  for (const bool floor_first : {true, false}) {
+    VerticalImage at;
+    bool floor = floor_first;
+    for (int k = 1; k <= bounces && (floor ? mirrors.floor : mirrors.ceiling); ++k) {
+      // The k-th mirror lies in the cover where the k−1 mirrors before it have put it: its reflection is conjugated, which multiplies from
+      // the right.
+      const double shift = floor ? 0 : 2 * height;
+      at = {-at.sign, at.sign * shift + at.shift, k};
+      images.push_back(at);
+      floor = !floor;
+    }
+  }
+  return images;
+}
+
+trace::Direction image_of(const Isometry& map, const VerticalImage& vertical, const trace::Direction& d) {
+  const double k = geometry::curvature(map.space),
+               h = std::sqrt(std::max(0.0, d.floor.x * d.floor.x + d.floor.y * d.floor.y + k * d.floor.w * d.floor.w));
+  if (h < 1e-12) return {{0, 0, 0}, vertical.sign * d.z};
+  const geometry::Tangent t = map * geometry::Tangent(d.floor.w / h, d.floor.x / h, d.floor.y / h);
+  return {h * t, vertical.sign * d.z};
+}
+
+Position image_of(const HorizontalImage& horizontal, const VerticalImage& vertical, const Position& p) {
+  return {horizontal.cover_from_room * p.floor, vertical.sign * p.z + vertical.shift};
+}
+
+bool is_orbifold(const place::PlacedRoom& room) {
+  return std::all_of(room.room.orbifold.corners.begin(), room.room.orbifold.corners.end(),
+                     [](const Rational& k) { return denominator(k) == 1; });
+}
+
+/// A room with all that the images of its lamps depend on.
+struct ImageContext {
+  const std::vector<PlacedLamp>& lamps;
+  const place::PlacedRoom& room;
+  const ImageOptions& options;
+  MirroredSurfaces mirrors;
+};
+
+double max_throughput(const ImageContext& context, const HorizontalImage& horizontal, const VerticalImage& vertical) {
+  return math::pow(context.mirrors.max_throughput, horizontal.bounces + vertical.bounces);
+}
+
+// Whether some point of the room may get light of `cull_below`. On S² light rises again with distance, and images are few.
+bool may_be_visible(const ImageContext& context, const PlacedLamp& lamp, const HorizontalImage& horizontal, const VerticalImage& vertical) {
+  const Space space = context.room.room.space;
+  if (context.options.cull_below <= 0 || space == Space::spherical) return true;
+  const Position centre = image_of(horizontal, vertical, lamp.centre);
+  const double arc = std::max(0.0, geometry::distance(space, {}, centre.floor) - context.room.room.circumradius);
+  const double rise = std::max({0.0, -centre.z, centre.z - context.room.height});
+  return max_contribution(space, lamp, max_throughput(context, horizontal, vertical), context.options.exposure, math::hypot(arc, rise),
+                          arc) >= context.options.cull_below;
+}
+
+LampImage lamp_image(const ImageContext& context, int l, const HorizontalImage& horizontal, const VerticalImage& vertical) {
+  const PlacedLamp& lamp = context.lamps[static_cast<std::size_t>(l)];
+  LampImage image;
+  image.lamp = l;
+  image.bounces = horizontal.bounces + vertical.bounces;
+  image.sheet = horizontal.sheet;
+  image.walls = horizontal.walls;
+  image.path_specific = horizontal.path_specific;
+  image.max_throughput = max_throughput(context, horizontal, vertical);
+  for (const Position& p : lamp.samples) image.samples.push_back(image_of(horizontal, vertical, p));
+  for (const trace::Direction& axis : lamp.axes) image.axes.push_back(image_of(horizontal.cover_from_room, vertical, axis));
+  image.hot_spots = lamp.hot_spots;
+  for (HotSpot& spot : image.hot_spots) spot.at = image_of(horizontal, vertical, spot.at);
+  return image;
+}
+
+/// The images over at most `bounces` mirrors; nothing when they are too many.
+std::optional<std::vector<LampImage>> images_up_to(const ImageContext& context, int bounces) {
+  const std::vector<VerticalImage> verticals = vertical_images(context.mirrors, context.room.height, bounces);
+  std::vector<LampImage> images;
+  std::uint64_t visited = 0;
+  bool complete = true;
+  const auto visit = [&](const HorizontalImage& horizontal) {
+    for (std::size_t l = 0; l < context.lamps.size(); ++l)
+      for (const VerticalImage& vertical : verticals) {
+        if (horizontal.bounces + vertical.bounces > bounces) continue;
+        if (++visited > kMaxVisitedImages || images.size() > kMaxImages) return complete = false;
+        if (may_be_visible(context, context.lamps[l], horizontal, vertical))
+          images.push_back(lamp_image(context, static_cast<int>(l), horizontal, vertical));
+      }
+    return true;
+  };
+  if (is_orbifold(context.room)) visit_group(context.room, context.mirrors, bounces, visit);
+  else visit_words(context.room, context.mirrors, bounces, {geometry::identity(context.room.room.space), 0, 0, {}, true}, visit);
+  if (!complete || images.size() > kMaxImages) return std::nullopt;
+  return images;
+}
+
+}  // namespace
+
+double max_contribution(Space space, const PlacedLamp& lamp, double throughput, double exposure, double length, double arc) {
+  return largest(lamp.power) / std::numbers::pi * exposure * throughput * lamp.peak_intensity *
+         falloff(lamp.falloff, space, std::max(length - lamp.extent, lamp.radius), arc, lamp.radius);
+}
+
+Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::PlacedRoom& room,
+                                           const ImageOptions& options) {
+  const ImageContext context{lamps, room, options, mirrored_surfaces(room)};
+  if (auto images = images_up_to(context, options.bounces)) return std::move(*images);
+  int fits = -1;
+  while (fits + 1 < options.bounces && images_up_to(context, fits + 1)) ++fits;
+  return make_error(
+      "light.too-many-images",
+      fmt::format(
+          "over {} mirrors {} lamp{} of this scene {} too many images: more than {} would add light, or {} would have to be looked at",
+          options.bounces, lamps.size(), lamps.size() == 1 ? "" : "s", lamps.size() == 1 ? "has" : "have", kMaxImages, kMaxVisitedImages),
+      fits >= 0 ? fmt::format("`bake: {{mirrors: {}}}` has few enough", fits) : "use fewer lamps");
+}
+
+}  // namespace orbc::light

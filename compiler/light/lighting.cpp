@@ -1,0 +1,243 @@
+// The light of a point: for every image of every lamp the geodesic to it, and shadow rays along it (connection.cpp) unless it cannot
+// matter. The number of samples of a lamp follows from its upper bound: a step in its penumbra stays below what 8 bits show.
+#include "compiler/light/lighting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/light/connection.h"
+#include "compiler/light/falloff.h"
+#include "compiler/light/guide.h"
+#include "compiler/place/texel.h"
+#include "compiler/surface/sampling.h"
+
+namespace orbc::light {
+namespace {
+
+using geometry::Position;
+using geometry::Space;
+using scene::Color;
+
+constexpr int kMaxPenumbraProbes = 32;         // samples that decide whether a point is in a penumbra
+constexpr double kStepsPerProbe = 4;           // LightOptions::max_step: what may pass unseen between two of these samples
+constexpr double kMaxStratumError = 8;         // LightOptions::max_step: error of a single stratum, for each image
+constexpr double kMaxQuadratureExtent = 0.25;  // extent of a lamp / distance: the third order of the quadrature is then below 1.5 %
+
+/// An estimate of what an image adds at a point; 0 only where it surely adds nothing.
+double importance(const LightingContext& lighting, const LampImage& image, const surface::ShadingPoint& point) {
+  const Space space = lighting.scene.prism.space;
+  const PlacedLamp& lamp = lamp_of_image(lighting, image);
+  const Connection centre = connect(space, point.ray_origin, image.samples[0], image.sheet);
+  const double max_tilt = 2 * lamp.extent / std::max(centre.length, 1e-9);
+  const double cosine = centre.valid ? trace::inner(space, centre.direction, point.normal) + max_tilt : 1;
+  if (cosine <= 0 && max_tilt < 1) return 0;
+  return largest(lamp.power) * image.max_throughput * std::clamp(cosine, 0.05, 1.0) *
+         falloff(lamp.falloff, space, std::max(centre.length, lamp.radius), centre.arc, lamp.radius);
+}
+
+double image_bound(const LightingContext& lighting, const LampImage& image, double length, double arc) {
+  return max_contribution(lighting.scene.prism.space, lamp_of_image(lighting, image), image.max_throughput, lighting.exposure, length, arc);
+}
+
+/// Beyond the quadrature, samples come in pairs that are mirror images about the lamp's centre, so their number must be even.
+int round_up_to_even(double count) { return 2 * static_cast<int>(std::ceil(std::min(count, 1e6) / 2)); }
+
+/// The samples of an image that one stratum takes: `count` of the first `pool` samples, cyclically from `first` on.
+struct SampleBudget {
+  int pool = 1, first = 0, count = 0;
+  double weight = 1;  ///< of this image in this stratum: 1 / probability that the image is sampled at all
+};
+
+/// In: the upper bound of the image in steps (LightOptions::max_step); its index, so that faint images do not share their strata.
+SampleBudget sample_budget(double steps, int samples, const SampleStratum& stratum, std::uint32_t image) {
+  int pool = 1;
+  if (samples > 0 && steps > 1) pool = std::clamp(round_up_to_even(steps), kQuadratureSamples, samples);
+  if (stratum.count == 1) return {pool, 0, pool, 1};
+  // A single stratum may be off by more than the mean of all. The error still shows where several surfaces share the pixel.
+  steps /= std::min(kMaxStratumError, 2 * std::sqrt(stratum.count));
+  const int count = std::clamp(static_cast<int>(std::ceil(steps)), 1, pool);
+  if (steps >= 0.5) return {pool, stratum.index * count, count, 1};
+  // A faint image is sampled by every n-th stratum with the weight n, where n divides the number of strata.
+  int every = 1;
+  for (int n = 2; n <= stratum.count && n * steps <= 1; ++n)
+    if (stratum.count % n == 0) every = n;
+  if ((static_cast<std::uint64_t>(stratum.index) + surface::splitmix64(image)) % static_cast<std::uint64_t>(every) != 0) return {};
+  return {pool, stratum.index / every, 1, static_cast<double>(every)};
+}
+
+/// The irradiance from one image of a lamp.
+Color image_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
+                       const SampleStratum& stratum) {
+  const LampImage& image = lighting.images[number];
+  const Space space = lighting.scene.prism.space;
+  const PlacedLamp& lamp = lamp_of_image(lighting, image);
+  const Connection centre = connect(space, point.ray_origin, image.samples[0], image.sheet);
+  double bound = image_bound(lighting, image, centre.length, centre.arc);
+  if (bound < lighting.options.cull_below) return {};
+  if (centre.valid) {  // the directions to samples differ from that to the centre by at most 2·extent / length
+    const double cosine = trace::inner(space, centre.direction, point.normal) + 2 * lamp.extent / centre.length;
+    if (cosine <= 0 && centre.length > 2 * lamp.extent) return {};
+    if (cosine < 1 && image.sheet == 0) bound *= std::max(cosine, 0.0);
+    if (bound < lighting.options.cull_below) return {};
+  }
+  const double steps = bound / lighting.options.max_step;
+  const SampleBudget budget = sample_budget(steps, static_cast<int>(image.samples.size()) - 1, stratum, number);
+  if (budget.count == 0) return {};
+  // The quadrature alone gives the light of the whole lamp up to the third order in its extent (lamp.cpp). It suffices where the first
+  // `probes` samples agree, so that no shadow border of visible height lies between them. Strata have too few samples for that.
+  const bool quadrature_suffices = stratum.count == 1 && lamp.extent < kMaxQuadratureExtent * centre.length;
+  const int probes =
+      stratum.count == 1 ? std::clamp(round_up_to_even(steps / kStepsPerProbe), kQuadratureSamples, kMaxPenumbraProbes) : budget.count;
+  Color sum, throughput, quadrature;
+  int shadow_rays = 0;
+  bool agree = true;
+  for (int i = 0; i < budget.count; ++i) {
+    const auto sample = static_cast<std::size_t>(budget.pool == 1 ? 0 : (budget.first + i) % budget.pool + 1);
+    const Connection connection = connect(space, point.ray_origin, image.samples[sample], image.sheet);
+    const double cosine = connection.valid ? trace::inner(space, connection.direction, point.normal) : 0;
+    const double light = cosine > 0 ? cosine * unoccluded_irradiance(lighting, image, sample, point, connection) : 0;
+    if (light > 0) {
+      if (shadow_rays < probes || !agree) {
+        const Color arriving = shadow_transmittance(lighting, image, sample, point, connection);
+        agree = agree && (shadow_rays == 0 || arriving == throughput);
+        throughput = arriving;
+        ++shadow_rays;
+      }
+      sum = sum + light * throughput;
+    }
+    if (i + 1 == kQuadratureSamples) quadrature = sum;
+    if (i + 1 == probes && quadrature_suffices && agree && shadow_rays == probes)
+      return (1.0 / kQuadratureSamples) * (lamp.power * quadrature);
+  }
+  return (budget.weight / budget.count) * (lamp.power * sum);
+}
+
+/// The room without the bodies of its lamps.
+std::shared_ptr<const place::PlacedRoom> make_shadow_casters(const place::PlacedRoom& room) {
+  auto casters = std::make_shared<place::PlacedRoom>(room);
+  if (!place::has_holes(room)) casters->textures.clear();
+  casters->parts.erase(
+      std::remove_if(casters->parts.begin(), casters->parts.end(), [](const place::PlacedMesh& part) { return lamp_of_part(part) >= 0; }),
+      casters->parts.end());
+  return casters;
+}
+
+}  // namespace
+
+LightOptions light_options(const scene::Scene& scene) {
+  LightOptions options;
+  options.bounces = scene.bake.mirrors;
+  if (scene.integrator == scene::Integrator::path) options.indirect_bounces = scene.bake.bounces;
+  options.path_bounces = scene.cover.max_bounces;
+  options.path_min_weight = scene.cover.min_weight;
+  options.background = (1 / std::max(scene.exposure, 1e-300)) * scene.cover.background;
+  options.seed = static_cast<std::uint64_t>(scene.bake.seed);
+  return options;
+}
+
+Result<LightingContext> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options,
+                                      const Executor& executor) {
+  LightingContext lighting;
+  lighting.lit = !scene.lamps.empty() || options.indirect_bounces > 0;
+  lighting.exposure = scene.exposure;
+  if (!lighting.lit) {
+    lighting.ambient = {1, 1, 1};
+    return lighting;
+  }
+  auto placed = place_lamps(scene, room.room);
+  if (!placed) return placed.error();
+  lighting.ambient = scene.ambient;
+  lighting.options = options;
+  lighting.lamps = std::move(placed->lamps);
+  for (PlacedLamp& lamp : lighting.lamps) lamp.hot_spots = find_hot_spots(lamp, room);
+  auto images = lamp_images(lighting.lamps, room, {options.bounces, scene.exposure, options.cull_below});
+  if (!images) return located(images.error(), scene.bake.mirrors_span);
+  lighting.images = std::move(images).value();
+  lighting.normals.resize(room.parts.size());
+  executor(room.parts.size(), [&](std::size_t i) { lighting.normals[i] = surface::part_normals(room, room.parts[i]); });
+  lighting.shadow_casters = make_shadow_casters(room);
+  lighting.scene = trace::prepare(*lighting.shadow_casters, executor);
+  lighting.cull_grid = make_light_cull_grid(lighting, executor);
+  return lighting;
+}
+
+Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const SampleStratum& stratum) {
+  Color sum;
+  for (const std::uint32_t i : images_at(lighting, point.at)) sum = sum + image_irradiance(lighting, i, point, stratum);
+  return sum;
+}
+
+Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const std::vector<std::uint32_t>& images) {
+  Color sum;
+  for (const std::uint32_t i : images) sum = sum + image_irradiance(lighting, i, point, {});
+  return sum;
+}
+
+std::vector<std::uint32_t> images_within(const LightingContext& lighting, const Position& centre, double radius, double share) {
+  // On S² the falloff rises again towards a focus, so it gives no bound over a ball.
+  const bool bounded = lighting.scene.prism.space != Space::spherical;
+  std::vector<std::uint32_t> within;
+  for (std::uint32_t i = 0; i < lighting.images.size(); ++i) {
+    const LampImage& image = lighting.images[i];
+    const Connection connection = connect(lighting.scene.prism.space, centre, image.samples[0], image.sheet);
+    if (!bounded || image_bound(lighting, image, connection.length - radius, std::max(connection.arc - radius, 0.0)) >=
+                        share * lighting.options.cull_below)
+      within.push_back(i);
+  }
+  return within;
+}
+
+Color estimate_irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const std::array<double, 3>& u) {
+  const Space space = lighting.scene.prism.space;
+  // Reservoir sampling of one image in proportion to its importance. One number serves all decisions: after each it is stretched to [0, 1)
+  // again (Chao, A general purpose unequal probability sampling plan, 1982).
+  double total = 0, chosen_importance = 0, left = u[0];
+  const LampImage* chosen = nullptr;
+  for (const std::uint32_t i : images_at(lighting, point.at)) {
+    const LampImage& image = lighting.images[i];
+    const double own = importance(lighting, image, point);
+    if (own <= 0) continue;
+    total += own;
+    const double probability = own / total;
+    if (left < probability) {
+      chosen = &image;
+      chosen_importance = own;
+      left /= probability;
+    } else {
+      left = (left - probability) / (1 - probability);
+    }
+  }
+  if (!chosen) return {};
+  const std::size_t count = chosen->samples.size() - 1;
+  const std::size_t sample = count == 0 ? 0 : 1 + std::min(count - 1, static_cast<std::size_t>(u[1] * static_cast<double>(count)));
+  const Connection connection = connect(space, point.ray_origin, chosen->samples[sample], chosen->sheet);
+  if (!connection.valid) return {};
+  const double cosine = trace::inner(space, connection.direction, point.normal);
+  if (cosine <= 0) return {};
+  const double light = cosine * unoccluded_irradiance(lighting, *chosen, sample, point, connection);
+  if (light <= 0) return {};
+  const Color throughput = shadow_transmittance(lighting, *chosen, sample, point, connection);
+  return (light * total / chosen_importance) * (lamp_of_image(lighting, *chosen).power * throughput);
+}
+
+Color outgoing_radiance(const LightingContext& lighting, const scene::Material& material, const Color& albedo, const Color& e) {
+  Color out = material.kind == scene::MaterialKind::emissive ? material.emission * albedo
+                                                             : albedo * (lighting.ambient + (1 / std::numbers::pi) * e);
+  const double white = white_level(lighting);
+  return {std::min(out.r, white), std::min(out.g, white), std::min(out.b, white)};
+}
+
+double white_level(const LightingContext& lighting) { return 1 / std::max(lighting.exposure, 1e-300); }
+
+surface::ShadingPoint shading_point(const LightingContext& lighting, const place::PlacedRoom& room, const trace::SurfacePoint& point,
+                                    const trace::Hit& hit) {
+  if (hit.target == trace::Target::triangle) {
+    const auto part = static_cast<std::size_t>(hit.part);
+    return surface::shading_point(room, room.parts[part], lighting.normals[part], static_cast<std::size_t>(hit.triangle),
+                                  {hit.b[0], hit.b[1], hit.b[2]});
+  }
+  return {point.at, point.normal, point.at, point.wall, false};
+}
+
+}  // namespace orbc::light

@@ -1,0 +1,92 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "compiler/base/executor.h"
+#include "compiler/light/lamp_image.h"
+#include "compiler/light/light_cull_grid.h"
+#include "compiler/surface/normals.h"
+#include "compiler/trace/follow.h"
+
+namespace orbc::light {
+
+struct LightOptions {
+  int bounces = 2;                 ///< most mirrors between a lamp and the surface it lights
+  double max_step = 0.006;         ///< white = 1: the most that one sample of a lamp adds to a point; shadows have steps of this size
+  int indirect_bounces = 0;        ///< most matte surfaces on a path of indirect light; 0: no indirect light (`integrator: direct`)
+  int path_bounces = 12;           ///< indirect light: most mirrors between two surfaces,
+  double path_min_weight = 0;      ///< and the throughput of these mirrors below which a path is cut off
+  scene::Color background;         ///< radiance where a path is cut off
+  std::uint64_t seed = 1;          ///< of random numbers, for pictures that need them
+  double cull_below = 1.0 / 1000;  ///< white = 1 in the picture: images that could add less to a white surface are left out
+};
+
+/// The options that a scene asks for.
+[[nodiscard]] LightOptions light_options(const scene::Scene& scene);
+
+/// All that is needed to light a point of a room. Made once for a scene, shared by the tracer and the bake.
+struct LightingContext {
+  bool lit = false;  ///< false: neither lamps nor `integrator: path`; surfaces show their albedo
+  scene::Color ambient;
+  double exposure = 1;
+  LightOptions options;
+  std::vector<PlacedLamp> lamps;
+  std::vector<LampImage> images;
+  LightCullGrid cull_grid;                                  ///< which images matter where
+  std::vector<surface::PartNormals> normals;                ///< per part of the room
+  std::shared_ptr<const place::PlacedRoom> shadow_casters;  ///< the room without the bodies of its lamps
+  trace::TraceScene scene;                                  ///< of `shadow_casters`
+};
+
+/// The lamp of an image.
+[[nodiscard]] inline const PlacedLamp& lamp_of_image(const LightingContext& lighting, const LampImage& image) {
+  return lighting.lamps[static_cast<std::size_t>(image.lamp)];
+}
+
+/// Places the lamps, finds their images and prepares shadow rays. In: the room with lamp bodies (add_lamp_bodies).
+/// Diagnostics: those of place_lamps and lamp_images.
+[[nodiscard]] Result<LightingContext> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room,
+                                                    const LightOptions& options = {}, const Executor& executor = serial_executor());
+
+/// Lamp samples are stratified over the samples of a pixel: stratum `index` of `count`. The mean over all strata has full accuracy.
+struct SampleStratum {
+  int index = 0;  ///< strata with equal remainders by any number should lie apart in the pixel
+  int count = 1;  ///< 1: not stratified, full accuracy
+};
+
+/// The irradiance at a surface point from all lamps, directly and over mirrors.
+/// Units:  a lamp of power Φ gives Φ/(4πr²) at distance r in E², at normal incidence. Ambient light is not part of it.
+/// Error:  lamps with an extent have at most 128 samples; images below `cull_below` are left out. A single stratum is off by up to 8 steps
+///         for each image.
+[[nodiscard]] scene::Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
+                                      const SampleStratum& stratum = {});
+/// The same from some of the images.
+[[nodiscard]] scene::Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
+                                      const std::vector<std::uint32_t>& images);
+/// Indices of the images that may matter at points within `radius` of a position. In: `share` of LightOptions::cull_below that matters.
+[[nodiscard]] std::vector<std::uint32_t> images_within(const LightingContext& lighting, const geometry::Position& centre, double radius,
+                                                       double share = 1);
+
+/// An unbiased estimate of `irradiance` by one shadow ray to one sample of one image. In: numbers u in [0, 1), uniform.
+[[nodiscard]] scene::Color estimate_irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
+                                               const std::array<double, 3>& u);
+
+/// The radiance of a matte surface: albedo × (ambient + E/π), or emission × albedo if it is emissive. E = π shows as white at exposure 1.
+/// In:    the irradiance E from lamps, and π times the indirect light if there is any.
+/// Makes: at most white after exposure, since textures of copies hold no more, and the tracer must agree with them.
+[[nodiscard]] scene::Color outgoing_radiance(const LightingContext& lighting, const scene::Material& material, const scene::Color& albedo,
+                                             const scene::Color& irradiance);
+/// The radiance that shows as white: the most that any surface has.
+[[nodiscard]] double white_level(const LightingContext& lighting);
+
+/// The shading point that a ray has hit.
+[[nodiscard]] surface::ShadingPoint shading_point(const LightingContext& lighting, const place::PlacedRoom& room,
+                                                  const trace::SurfacePoint& point, const trace::Hit& hit);
+
+/// The radiance that a glossy or metal surface reflects specularly from the lamps towards the eye. The room in metals is not part of it.
+/// Formula: GGX (surface/ggx.h) with α = roughness². Lamps with an extent are sums over their samples.
+/// Error:   highlights below 1/3000 of white are left out; their shadows have steps of up to 1/400 of white.
+[[nodiscard]] scene::Color highlight(const LightingContext& lighting, const surface::ShadingPoint& point, const trace::Direction& to_eye,
+                                     const scene::Material& material, const scene::Color& albedo);
+
+}  // namespace orbc::light
