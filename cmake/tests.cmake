@@ -27,8 +27,9 @@ function(orbc_tests name folder)
   if(ORBC_SANITIZE)
     set(which "~[long]~[.]")  # a filter alone would bring the hidden ones along
   endif()
-  add_test(NAME ${name} COMMAND ${name} ${which} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  set_tests_properties(${name} PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 1200)
+  # Every case is a test of its own, named "<program>: <case>": the cores share the long programs, and a failure names its case.
+  catch_discover_tests(${name} TEST_SPEC ${which} TEST_PREFIX "${name}: " WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
+    PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 1200)
 endfunction()
 
 foreach(room base geometry image image_io notation scene room mesh mesh_io diff)
@@ -68,6 +69,6 @@ if(ORBC_FUZZ)  # tests/fuzz/<room>_fuzz.cpp; everything it links is instrumented
 endif()
 include(cmake/system_tests.cmake)
 # The longest first, so that no core waits for one of them in the end.
-foreach(test watertight_thousand system_examples system_verify_rooms test_driver property_bend property_trace system_command_line)
+foreach(test watertight_thousand system_examples system_verify_rooms system_command_line)
   set_tests_properties(${test} PROPERTIES COST 100)
 endforeach()
