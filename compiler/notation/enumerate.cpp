@@ -92,7 +92,7 @@ Diagnostics range_errors(int corners, int max_order) {
   return errors;
 }
 
-Integer power(Integer base, int exponent) { return boost::multiprecision::pow(base, static_cast<unsigned>(exponent)); }
+Integer power(const Integer& base, int exponent) { return pow(base, static_cast<unsigned>(exponent)); }
 
 }  // namespace
 

@@ -279,7 +279,7 @@ class Scanner {
     // A leading zero would make the number octal.
     const auto number = [&](const std::string& s) { return Integer(significant(s).empty() ? "0" : significant(s)); };
     const Integer scale =
-        mark == U'/' ? number(below) : boost::multiprecision::pow(Integer(10), static_cast<unsigned>(mark == U'.' ? below.size() : 0));
+        mark == U'/' ? number(below) : pow(Integer(10), static_cast<unsigned>(mark == U'.' ? below.size() : 0));
     if (scale == 0) return fail(text_.error("notation.order-out-of-range", "this corner divides by zero", token, at - token));
     Rational result(mark == U'.' ? Integer(number(digits) * scale + number(below)) : number(digits), scale);
     value = negative ? Rational(-result) : result;

@@ -2,6 +2,7 @@
 // Heavy: only the .cpp files of this room include it.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+#include "compiler/base/rational.h"
 #include "compiler/geometry/space.h"
 
 namespace orbc::room {
@@ -10,6 +11,9 @@ namespace orbc::room {
 /// its centre loses a factor e^(2r) of precision while it is built; at r = 18, where doubles know nothing any more, 34 digits are left.
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<168, boost::multiprecision::digit_base_2>,
                                            boost::multiprecision::et_off>;
+
+/// The nearest Real.
+[[nodiscard]] inline Real real_of(const Integer& value) { return Real(to_string(value)); }
 
 /// An ambient vector (w, x, y) or a covector of a line, as in geometry/point.h and geometry/line.h.
 struct RealVector {

@@ -93,7 +93,7 @@ Result<Polygon> polygon_of(Space space, const std::vector<Rational>& orders, con
 }
 
 double area_of(const Polygon& polygon, const Rational& chi) {
-  if (polygon.space != Space::euclidean) return static_cast<double>(2 * real_pi() * Real(abs(numerator(chi))) / Real(denominator(chi)));
+  if (polygon.space != Space::euclidean) return static_cast<double>(2 * real_pi() * real_of(abs(numerator(chi))) / real_of(denominator(chi)));
   Real area = 0;
   for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
     const RealVector &p = polygon.corners[i], &q = polygon.corners[(i + 1) % polygon.corners.size()];

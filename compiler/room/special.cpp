@@ -14,7 +14,7 @@ std::vector<CornerAngle> corner_angles(const std::vector<Rational>& orders) {
       angles.push_back(angles[same]);
       continue;
     }
-    const Real angle = real_pi() * Real(denominator(orders[i])) / Real(numerator(orders[i]));
+    const Real angle = real_pi() * real_of(denominator(orders[i])) / real_of(numerator(orders[i]));
     if (orders[i] == 2) {
       const Real half = sqrt(Real(0.5));
       angles.push_back({angle, 1, 0, half, half});

@@ -127,7 +127,7 @@ int curvature_sign(const notation::Orbifold& orbifold) {
   if (orbifold.strip) return 0;
   Rational chi = 1 - Rational(static_cast<int>(orbifold.corners.size()), 2);
   for (const Rational& k : orbifold.corners) chi += 1 / (2 * k);
-  return chi.sign();
+  return chi > 0 ? 1 : chi < 0 ? -1 : 0;
 }
 
 Diagnostics check(const Scene& scene) { return Checker(scene).run(); }
