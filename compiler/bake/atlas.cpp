@@ -1,6 +1,6 @@
 // Renderers look a texture up between texels in ways of their own (POV-Ray blends linear light and wraps at the borders, Cycles blends
-// encoded values and clamps), so nothing may depend on it: colours are blocks read in their middle, pictures have gutters. Packing by
-// shelves, tallest first.
+// encoded values and clamps), so nothing may depend on it: plain colours are squares of texels read in their middle, and
+// pictures have gutters.
 #include "compiler/bake/atlas.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <map>
 #include <numeric>
 
-#include "compiler/image/image.h"
+#include "compiler/bake/rect_packing.h"
 #include "compiler/image/srgb.h"
 
 namespace orbc::bake {
@@ -22,18 +22,18 @@ using place::PartKind;
 using place::PlacedMesh;
 using Texel = std::array<std::uint8_t, 4>;
 
-constexpr int kBlock = 4;  // texels of a colour's block: its middle is a corner of four texels, each a whole texel away from the border
-constexpr int kGutter = 4;
+constexpr int kColorTexels = 4;  // a side of a plain colour: its middle is a corner of four texels, each a whole texel from the border
+constexpr int kGutter = 4;       // texels around a picture
 
 /// What a look needs of the atlas: a colour, or a tinted picture.
 struct Cell {
   int texture = -1;
   Texel color{};                           ///< of a plain colour
-  std::array<std::uint16_t, 3> color16{};  ///< the same with 16 bits a channel
+  std::array<std::uint16_t, 3> color16{};  ///< with 16 bits a channel
   std::array<double, 3> tint{1, 1, 1};
   bool tiles = false;
-  double cutoff = -1;                   ///< of holes, as in Look
-  int width = kBlock, height = kBlock;  ///< with gutters
+  double cutoff = -1;                               ///< of holes, as in Look
+  int width = kColorTexels, height = kColorTexels;  ///< with gutters
   int x = 0, y = 0;
   [[nodiscard]] auto key() const { return std::tuple(texture, color, color16, tint, tiles, cutoff); }
 };
@@ -55,10 +55,10 @@ Cell cell_of(const place::PlacedRoom& room, const Look& look, bool tiles) {
   return cell;
 }
 
-/// The atlas's cells, and which one each (look, on a panel or not) has.
+/// The cells of the atlas, and the cell of each look.
 struct Layout {
   std::vector<Cell> cells;
-  std::vector<std::array<int, 2>> of_look;  ///< [look][tiles]; −1 = unused
+  std::vector<std::array<int, 2>> of_look;  ///< [look][1 where the picture tiles a panel, else 0]; −1: unused
   int width = 0, height = 0;
 };
 
@@ -77,37 +77,6 @@ Layout collect(const place::PlacedRoom& room) {
       cell = at->second;
     }
   return layout;
-}
-
-// Shelves of a given width; returns the height they take.
-std::int64_t shelve(std::vector<Cell>& cells, const std::vector<int>& order, int width) {
-  std::int64_t y = 0, shelf = 0;
-  int x = 0;
-  for (const int i : order) {
-    if (x + cells[i].width > width) y += shelf, shelf = 0, x = 0;
-    cells[i].x = x, cells[i].y = static_cast<int>(y);
-    x += cells[i].width;
-    shelf = std::max<std::int64_t>(shelf, cells[i].height);
-  }
-  return y + shelf;
-}
-
-// The smallest power of two as width that makes the atlas no higher than wide.
-bool pack(Layout& layout, int max_side) {
-  std::vector<int> order(layout.cells.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return layout.cells[a].height > layout.cells[b].height; });
-  int widest = kBlock;
-  for (const Cell& cell : layout.cells) widest = std::max(widest, cell.width);
-  for (int width = 16; width <= max_side; width *= 2) {
-    if (width < widest) continue;
-    const std::int64_t height = shelve(layout.cells, order, width);
-    if (height > width && width * 2 <= max_side) continue;
-    layout.width = width;
-    layout.height = static_cast<int>(std::min<std::int64_t>(std::max<std::int64_t>(height, kBlock), max_side + 1));
-    return height <= max_side;
-  }
-  return false;
 }
 
 Texel texel_of(const image::Image& image, const Cell& cell, const std::array<std::array<std::uint8_t, 256>, 3>& tint, int x, int y) {
@@ -131,7 +100,7 @@ void draw(const place::PlacedRoom& room, const Cell& cell, image::Image& atlas) 
     }
 }
 
-/// The same into the picture of 16 bits, from the full precision of colours and of tints.
+/// Draws a cell with 16 bits a channel, from the full precision of colours and tints.
 void draw(const place::PlacedRoom& room, const Cell& cell, image::Image16& atlas) {
   std::array<std::array<std::uint16_t, 256>, 3> tint;
   for (std::size_t c = 0; c < 3; ++c)
@@ -153,68 +122,96 @@ void draw(const place::PlacedRoom& room, const Cell& cell, image::Image16& atlas
 
 std::array<float, 2> uv_in(const Layout& layout, const Cell& cell, const std::array<float, 2>& own) {
   if (cell.texture < 0)
-    return {static_cast<float>((cell.x + kBlock / 2.0) / layout.width), static_cast<float>((cell.y + kBlock / 2.0) / layout.height)};
+    return {static_cast<float>((cell.x + kColorTexels / 2.0) / layout.width),
+            static_cast<float>((cell.y + kColorTexels / 2.0) / layout.height)};
   const double u = cell.x + kGutter + static_cast<double>(own[0]) * (cell.width - 2 * kGutter);
   const double v = cell.y + kGutter + static_cast<double>(own[1]) * (cell.height - 2 * kGutter);
   return {static_cast<float>(u / layout.width), static_cast<float>(v / layout.height)};
 }
 
-// Gives every vertex one place in the atlas: vertices between triangles of different cells are doubled.
-std::vector<std::array<float, 2>> address(const Layout& layout, PlacedMesh& part) {
-  const PlacedMesh own = part;
-  part.floor.clear(), part.z.clear(), part.uv.clear(), part.pattern_position.clear();
+/// A part with one place in the atlas for each vertex. Vertices between triangles of different cells are doubled.
+struct AddressedPart {
+  PlacedMesh mesh;
   std::vector<std::array<float, 2>> uv;
-  std::map<std::pair<std::uint32_t, int>, std::uint32_t> known;
-  // The first cell that uses a vertex keeps a short list of its own; most vertices have no other.
+};
+AddressedPart address(const Layout& layout, const PlacedMesh& own) {
+  AddressedPart part{own, {}};
+  PlacedMesh& mesh = part.mesh;
+  mesh.floor.clear();
+  mesh.z.clear();
+  mesh.uv.clear();
+  mesh.pattern_position.clear();
+  // Most vertices belong to one cell, which stands in `first`; only further cells of a vertex go into the map.
   std::vector<std::pair<int, std::uint32_t>> first(own.floor.size(), {-1, 0});
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> others;
   for (std::size_t t = 0; t < own.triangles.size(); ++t) {
     const int cell = layout.of_look[own.look[t]][own.kind != PartKind::object];
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t v = own.triangles[t][i];
-      const auto fresh = static_cast<std::uint32_t>(part.floor.size());
-      std::uint32_t name = fresh;
-      if (first[v].first < 0) first[v] = {cell, fresh};
-      else if (first[v].first == cell) name = first[v].second;
-      else name = known.try_emplace({v, cell}, fresh).first->second;
-      if (name == fresh) {
-        part.floor.push_back(own.floor[v]);
-        part.z.push_back(own.z[v]);
-        if (!own.uv.empty()) part.uv.push_back(own.uv[v]);
-        if (!own.pattern_position.empty()) part.pattern_position.push_back(own.pattern_position[v]);
-        uv.push_back(uv_in(layout, layout.cells[cell], own.uv.empty() ? std::array<float, 2>{0, 0} : own.uv[v]));
+      const auto next = static_cast<std::uint32_t>(mesh.floor.size());
+      std::uint32_t vertex = next;
+      if (first[v].first < 0) first[v] = {cell, next};
+      else if (first[v].first == cell) vertex = first[v].second;
+      else vertex = others.try_emplace({v, cell}, next).first->second;
+      if (vertex == next) {
+        mesh.floor.push_back(own.floor[v]);
+        mesh.z.push_back(own.z[v]);
+        if (!own.uv.empty()) mesh.uv.push_back(own.uv[v]);
+        if (!own.pattern_position.empty()) mesh.pattern_position.push_back(own.pattern_position[v]);
+        part.uv.push_back(uv_in(layout, layout.cells[cell], own.uv.empty() ? std::array<float, 2>{0, 0} : own.uv[v]));
       }
-      part.triangles[t][i] = name;
+      mesh.triangles[t][i] = vertex;
     }
   }
-  return uv;
+  return part;
+}
+
+Diagnostic too_large(const Layout& layout, int max_side) {
+  const auto largest = std::max_element(layout.cells.begin(), layout.cells.end(), [](const Cell& a, const Cell& b) {
+    return static_cast<std::int64_t>(a.width) * a.height < static_cast<std::int64_t>(b.width) * b.height;
+  });
+  return make_error(
+      "light.atlas-too-large", fmt::format("the pictures of this scene do not fit into one of {0}×{0} pixels", max_side),
+      fmt::format("the largest picture is {}×{}: make it smaller", largest->width - 2 * kGutter, largest->height - 2 * kGutter));
 }
 
 }  // namespace
 
+image::Image blank_image(int width, int height) {
+  image::Image image{width, height, std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128)};
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
+}
+
+image::Image16 blank_image16(int width, int height) {
+  return {width, height, std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
+}
+
 Result<Atlas> make_atlas(const place::PlacedRoom& room, const AtlasOptions& options) {
   Layout layout = collect(room);
-  if (!pack(layout, options.max_side)) {
-    const auto largest = std::max_element(layout.cells.begin(), layout.cells.end(), [](const Cell& a, const Cell& b) {
-      return static_cast<std::int64_t>(a.width) * a.height < static_cast<std::int64_t>(b.width) * b.height;
-    });
-    return make_error(
-        "light.atlas-too-large", fmt::format("the pictures of this scene do not fit into one of {0}×{0} pixels", options.max_side),
-        fmt::format("the largest picture is {}×{}: make it smaller", largest->width - 2 * kGutter, largest->height - 2 * kGutter));
+  std::vector<TexelRect> rects;
+  for (const Cell& cell : layout.cells) rects.push_back({cell.width, cell.height});
+  const auto packed = pack_rects(std::move(rects), options.max_side);
+  if (!packed) return too_large(layout, options.max_side);
+  layout.width = packed->width;
+  layout.height = packed->height;
+  for (std::size_t i = 0; i < layout.cells.size(); ++i) {
+    layout.cells[i].x = packed->rects[i].x;
+    layout.cells[i].y = packed->rects[i].y;
   }
   Atlas atlas;
-  atlas.image.width = layout.width;
-  atlas.image.height = layout.height;
-  // Grey, opaque, where nothing lies.
-  atlas.image.rgba.assign(4 * static_cast<std::size_t>(layout.width) * layout.height, 128);
-  for (std::size_t i = 3; i < atlas.image.rgba.size(); i += 4) atlas.image.rgba[i] = 255;
+  atlas.image = blank_image(layout.width, layout.height);
   for (const Cell& cell : layout.cells) draw(room, cell, atlas.image);
   if (options.with_image16) {
-    atlas.image16.width = layout.width, atlas.image16.height = layout.height;
-    atlas.image16.rgb.assign(atlas.image.rgba.size() / 4 * 3, 128 * 257);
+    atlas.image16 = blank_image16(layout.width, layout.height);
     for (const Cell& cell : layout.cells) draw(room, cell, atlas.image16);
   }
   atlas.room = room;
-  for (PlacedMesh& part : atlas.room.parts) atlas.uv.push_back(address(layout, part));
+  for (PlacedMesh& part : atlas.room.parts) {
+    AddressedPart addressed = address(layout, part);
+    part = std::move(addressed.mesh);
+    atlas.uv.push_back(std::move(addressed.uv));
+  }
   return atlas;
 }
 

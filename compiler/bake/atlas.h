@@ -16,6 +16,10 @@ struct Atlas {
   image::Image16 image16;                             ///< the same picture with 16 bits a channel, where that was asked for
 };
 
+/// A picture without content: grey and opaque.
+[[nodiscard]] image::Image blank_image(int width, int height);
+[[nodiscard]] image::Image16 blank_image16(int width, int height);
+
 struct AtlasOptions {
   int max_side = 16384;       ///< pixels
   bool with_image16 = false;  ///< 16 bits a channel as well
@@ -23,7 +27,7 @@ struct AtlasOptions {
 
 /// Gathers the plain colours and pictures of a room in one picture.
 /// In:          uv of textured triangles in [0, 1]² (place::furnish sees to it).
-/// Makes:       every distinct colour as a block of 4×4 texels, addressed in its middle, so that nearest and bilinear lookup are both
+/// Makes:       every distinct colour as a square of 4×4 texels, addressed in its middle, so that nearest and bilinear lookup are both
 ///              exact; every pair of texture and tint once, texel by texel (uv keeps its place between texel centres, so nearest lookup is
 ///              exact), with a gutter of 4 texels: repeated where the texture tiles a panel, stretched where it covers an object. Same
 ///              room, same bytes.

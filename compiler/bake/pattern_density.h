@@ -1,18 +1,17 @@
 #pragma once
-#include "compiler/bake/bake.h"
-#include "compiler/bake/blocks.h"
+#include "compiler/bake/bake_options.h"
+#include "compiler/bake/patches.h"
 
 namespace orbc::bake {
 
-/// Halvings of a side of a block that make so many cells, at most 11 (2049 points); a half of one is rounded off, since meshes finer than
-/// asked for gain nothing.
-[[nodiscard]] int level_of(double cells);
+/// How often a side of a patch is halved to have about this many cells: log₂, rounded to the nearest, 0 to 11 (2049 points).
+[[nodiscard]] int halvings(double cells);
 
-/// Texels per unit of length for what varies on a block's surface: of solid patterns as many as they ask for, since granite hides detail
-/// that marble of the same cell does not have.
-/// Error: but for a few places, texels looked up in between are within twice the tolerance of the pattern itself, up to 3 times
-///        `texture_fine` texels.
-[[nodiscard]] double pattern_density(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const Block& block,
+/// Texels per unit of length that the texture or the solid pattern of a patch needs. Solid patterns get as many as interpolation asks for:
+/// marble has none of the fine detail that granite of the same cell has.
+/// Error: at all but one in 25 points, colours interpolated between texels are within twice the tolerance of the pattern, unless that
+///        takes more than 3 times `texture_density` texels.
+[[nodiscard]] double pattern_density(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const TexelPatch& patch,
                                      const BakeOptions& options);
 
 }  // namespace orbc::bake

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "compiler/bake/bake.h"
+#include "compiler/bake/diffuse.h"
 
 namespace orbc::cli {
 namespace {

@@ -404,7 +404,7 @@ Report report_of(const Opened& opened, const Ready& ready, const Product& produc
   r.copies = static_cast<std::uint64_t>(std::count_if(product.copies.begin(), product.copies.end(), is_listed));
   r.vertices = product.positions.size(), r.triangles = product.indices.size() / 3;
   r.error_bound_px = bend_error_px + ready.choice.error_px;
-  r.highlights = ready.painted.highlights.counts;
+  r.highlights = ready.painted.view_counts;
   r.weight_lost = ready.beyond.weight_lost, r.weight_merged = ready.beyond.weight_merged;
   r.triangles_whole = r.triangles + ready.tally.saved;
   r.tolerance_px = kToleranceShares * ready.bending.tolerance_px;

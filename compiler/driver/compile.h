@@ -52,7 +52,7 @@ struct Report {
   double tolerance_px = 0;  ///< of bending and of levels together: what was asked for, or what a budget allowed
   int longest_word = 0;
   std::vector<ToldLevels> levels;  ///< of the parts that have some
-  bake::HighlightCounts highlights;
+  bake::ViewBakeCounts highlights;
 };
 
 struct Compiled {

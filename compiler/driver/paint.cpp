@@ -45,27 +45,32 @@ Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const
   }
   painted.baked = true;
   light::LightingContext lighting = options.lit ? prepared(opened, executor).light : dark(opened.scene);
-  lighting.options = bake::baked_light_options(opened.scene);
+  lighting.options = bake::bake_light_options(opened.scene);
   bake::BakeOptions bake = baking;
   bake.max_side = options.max_side;
   bake.with_image16 = options.with_image16;
   const double denser = density_for(*opened.room);
-  bake.coarse *= denser, bake.fine *= denser, bake.texture_fine *= denser;
-  if (!options.lit) bake.coarse = bake.fine = bake.texture_fine = 0.01, lighting.options.indirect_bounces = 0;
-  auto baked = bake::bake(room, lighting, bake, executor, progress);
+  bake.min_density *= denser, bake.max_density *= denser, bake.texture_density *= denser;
+  if (!options.lit) bake.min_density = bake.max_density = bake.texture_density = 0.01, lighting.options.indirect_bounces = 0;
+  auto baked = bake::bake_diffuse(room, lighting, bake, executor, progress);
   if (!baked) return baked.error();
-  if (options.highlights && options.lit && bake::needs_highlights(*opened.room, lighting)) {
-    bake::HighlightOptions shine = bake::highlight_options(opened.scene.bake);
+  if (options.highlights && options.lit && bake::needs_view_bake(*opened.room, lighting)) {
+    bake::ViewBakeOptions shine = bake::view_bake_options(opened.scene.bake);
     shine.max_side = options.max_side;
-    if (bake::shows_room(*opened.room, lighting.lit)) shine.seen_in = see_in(opened, &*baked, executor);
-    painted.highlights = bake::bake_highlights(room, lighting, copies, drawn, opened.eye, shine, *baked, executor, progress);
+    if (bake::is_specular(*opened.room, lighting.lit)) shine.specular = see_in(opened, &*baked, executor);
+    bake::ViewBake view = bake::bake_view_dependent({room, lighting, *baked, copies, drawn, opened.eye}, shine, executor, progress);
+    baked->atlas.image = std::move(view.image);
+    baked->atlas.image16 = std::move(view.image16);
+    baked->atlas.uv = std::move(view.uv);
+    painted.copy_uv = std::move(view.copy_uv);
+    painted.view_counts = view.counts;
   }
   painted.atlas = std::move(baked->atlas);
   return painted;
 }
 
 void add_highlights(const Painted& painted, std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
-  const std::vector<bake::OwnUv>& all = painted.highlights.own;
+  const std::vector<bake::CopyUv>& all = painted.copy_uv;
   for (std::size_t i = 0; i < all.size();) {
     const std::size_t copy = all[i].copy;
     bend::Model model = models[model_of_copy[copy]];

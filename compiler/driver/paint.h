@@ -1,5 +1,5 @@
 #pragma once
-#include "compiler/bake/highlight_bake.h"
+#include "compiler/bake/view_dependent.h"
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/bend/bend.h"
@@ -18,8 +18,9 @@ struct PaintOptions {
 /// The colours of a cover: the room in its atlas, and what copies have of their own.
 struct Painted {
   bake::Atlas atlas;
-  bool baked = false;  ///< light was worked out: colours vary everywhere
-  bake::Highlights highlights;
+  bool baked = false;                 ///< light was worked out: colours vary everywhere
+  std::vector<bake::CopyUv> copy_uv;  ///< of copies that show highlights of their own
+  bake::ViewBakeCounts view_counts;
 };
 
 /// Plain colours, or, in a scene with lamps, the light of the room, and highlights for the eye.

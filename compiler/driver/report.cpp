@@ -43,7 +43,7 @@ std::string report_json(const Compiled& compiled) {
       {"curtains_dropped", r.curtains_dropped},
       {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
       {"lamps", compiled.product.native ? compiled.product.native->lamps.size() : 0},
-      {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.left_out}, {"texels", r.highlights.texels}}}};
+      {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.copies_left_out}, {"texels", r.highlights.texels}}}};
   if (!r.levels.empty()) {
     nlohmann::ordered_json& levels = json["levels"] = nlohmann::ordered_json::array();
     for (const ToldLevels& of : r.levels) levels.push_back({{"part", of.part}, {"triangles", of.triangles}, {"error", of.error}});

@@ -40,7 +40,7 @@ orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry
 
 }  // namespace
 
-bake::SeenIn see_in(const Opened& opened, const bake::Baked* baked, const Executor& executor) {
+bake::SpecularQuery see_in(const Opened& opened, const bake::DiffuseBake* baked, const Executor& executor) {
   const Prepared& ready = prepared(opened, executor);
   const auto looking = std::make_shared<Looking>(
       Looking{ready.scene, ready.light, draw_options(opened, ready.light, executor), std::nullopt, opened.scene.exposure});

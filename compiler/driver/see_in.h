@@ -1,5 +1,5 @@
 #pragma once
-#include "compiler/bake/highlight_bake.h"
+#include "compiler/bake/view_dependent.h"
 #include "compiler/base/executor.h"
 #include "compiler/driver/open.h"
 
@@ -10,6 +10,6 @@ namespace orbc::driver {
 /// In:    an opened scene, and what was baked of it, which outlive the answer. Without the latter all that is seen is lit point by point,
 ///        with `integrator: path` by one guess each.
 /// Error: that of the tracer, and of the texels of what was baked.
-[[nodiscard]] bake::SeenIn see_in(const Opened& opened, const bake::Baked* baked, const Executor& executor);
+[[nodiscard]] bake::SpecularQuery see_in(const Opened& opened, const bake::DiffuseBake* baked, const Executor& executor);
 
 }  // namespace orbc::driver

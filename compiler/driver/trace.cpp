@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "compiler/bake/bake.h"
+#include "compiler/bake/diffuse.h"
 #include "compiler/driver/prepared.h"
 #include "compiler/driver/tail.h"
 #include "compiler/render/draw.h"
@@ -12,7 +12,7 @@ namespace orbc::driver {
 render::DrawOptions draw_options(const Opened& opened, const light::LightingContext& light, const Executor& executor) {
   render::DrawOptions draw;
   draw.lighting = light.lit ? &light : nullptr;
-  draw.paths = std::max(1, bake::bake_options(opened.scene.bake).passing.samples / 32);
+  draw.paths = std::max(1, bake::bake_options(opened.scene.bake).radiosity.samples / 32);
   draw.max_bounces = opened.scene.cover.max_bounces;
   draw.min_weight = opened.scene.cover.min_weight;
   draw.background = opened.scene.cover.background;

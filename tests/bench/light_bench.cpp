@@ -1,7 +1,7 @@
 // Baked light by quality, and shadow rays against camera rays of the same room: ratios of one process.
 #include <benchmark/benchmark.h>
 
-#include "compiler/bake/bake.h"
+#include "compiler/bake/diffuse.h"
 #include "compiler/driver/open.h"
 #include "compiler/render/draw.h"
 #include "compiler/trace/follow.h"
@@ -19,11 +19,11 @@ void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator
   scene::Scene scene = opened().scene;
   scene.bake.quality = quality;
   scene.integrator = integrator;
-  const light::LightingContext lighting = light::prepare_light(scene, *opened().room, bake::baked_light_options(scene)).value();
+  const light::LightingContext lighting = light::prepare_light(scene, *opened().room, bake::bake_light_options(scene)).value();
   double points = 0, texels = 0;
   for (auto _ : state) {
-    const bake::Baked baked = bake::bake(*opened().room, lighting, bake::bake_options(scene.bake), serial_executor()).value();
-    points = static_cast<double>(baked.counts.points), texels = static_cast<double>(baked.counts.texels);
+    const bake::DiffuseBake baked = bake::bake_diffuse(*opened().room, lighting, bake::bake_options(scene.bake), serial_executor()).value();
+    points = static_cast<double>(baked.counts.lit_points), texels = static_cast<double>(baked.counts.texels);
   }
   state.counters["points"] = points, state.counters["texels"] = texels,
   state.counters["images"] = static_cast<double>(lighting.images.size());

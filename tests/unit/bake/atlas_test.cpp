@@ -6,10 +6,10 @@
 
 #include "compiler/image/image.h"
 #include "compiler/image/srgb.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
-#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;

@@ -39,21 +39,21 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
     if (!levels[p].empty()) both.parts.push_back(levels[p].back().mesh);
   REQUIRE(both.parts.size() == room.parts.size() + 1);
   const place::PlacedMesh& coarse = both.parts.back();
-  const bake::Baked baked = bake::bake(both, lighting, bake::BakeOptions{}, serial_executor()).value();
+  const bake::DiffuseBake baked = bake::bake_diffuse(both, lighting, bake::BakeOptions{}, serial_executor()).value();
   const bake::BakedLight known(room, baked);
   // Its light is that of the box: fewer points of it are asked than it has vertices.
-  const bake::Baked alone = bake::bake(room, lighting, bake::BakeOptions{}, serial_executor()).value();
-  CHECK(baked.counts.points < alone.counts.points + coarse.floor.size());
+  const bake::DiffuseBake alone = bake::bake_diffuse(room, lighting, bake::BakeOptions{}, serial_executor()).value();
+  CHECK(baked.counts.lit_points < alone.counts.lit_points + coarse.floor.size());
 
   const surface::PartNormals normals = surface::part_normals(both, coarse);
   int compared = 0, off = 0;
-  for (std::size_t b = 0; b < baked.blocks.back().size(); ++b) {
-    const bake::Block& block = baked.blocks.back()[b];
-    const bake::Box& box = baked.boxes.back()[b];
+  for (std::size_t b = 0; b < baked.patches.back().size(); ++b) {
+    const bake::TexelPatch& patch = baked.patches.back()[b];
+    const bake::TexelRect& rect = baked.rects.back()[b];
     for (const double u : {0.01, 0.3, 0.7, 0.99})
       for (const double v : {0.01, 0.3, 0.7, 0.99}) {
-        if (block.second < 0 && u + v > 1) continue;
-        const bake::InTriangle in = bake::in_triangle(block, u, v);
+        if (patch.second < 0 && u + v > 1) continue;
+        const bake::BarycentricPoint in = bake::barycentric_point(patch, u, v);
         const surface::ShadingPoint at = surface::shading_point(both, coarse, normals, in.triangle, in.b);
         if (at.at.z < 0.01) continue;
         // What the box itself shows there, seen from just before it.
@@ -67,8 +67,8 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
         const trace::SurfacePoint seen = trace::surface_at(lighting.scene, ray, hit);
         const auto shown = known.at(seen, hit);
         if (!shown || trace::inner(space, light::shading_point(lighting, room, seen, hit).normal, at.normal) < 0.7) continue;
-        const auto x = static_cast<int>(std::lround(u * (box.width - 1))), y = static_cast<int>(std::lround(v * (box.height - 1)));
-        const double texel = baked.atlas.image.rgba[4 * static_cast<std::size_t>((box.y + y) * baked.atlas.image.width + box.x + x) + 1];
+        const auto x = static_cast<int>(std::lround(u * (rect.width - 1))), y = static_cast<int>(std::lround(v * (rect.height - 1)));
+        const double texel = baked.atlas.image.rgba[4 * static_cast<std::size_t>((rect.y + y) * baked.atlas.image.width + rect.x + x) + 1];
         ++compared;
         off += std::fabs(texel - 255 * image::encode_srgb(shown->g)) > 15;
       }

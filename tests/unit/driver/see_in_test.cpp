@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "compiler/bake/eye_image.h"
+#include "compiler/bake/unfolded_eye.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/trace.h"
 #include "compiler/render/draw.h"

@@ -7,11 +7,11 @@
 #include "compiler/bake/baked_light.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/image/srgb.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/render/radiance.h"
 #include "compiler/room/realise.h"
-#include "compiler/mesh_io/load.h"
 #include "compiler/scene/defaults.h"
 
 using namespace orbc;
@@ -314,7 +314,7 @@ TEST_CASE("where a box stands on the floor the bake shows what paths find, with 
   s.lamps = {lamp};
   const auto l = lit(s, 16, 1);
   bake::BakeOptions options;
-  const bake::Baked baked = bake::bake(l->room, l->lighting, options, serial_executor()).value();
+  const bake::DiffuseBake baked = bake::bake_diffuse(l->room, l->lighting, options, serial_executor()).value();
   const bake::BakedLight known(l->room, baked);
   int compared = 0;
   double worst = 0;

@@ -1,11 +1,11 @@
-#include "compiler/bake/bake.h"
+#include "compiler/bake/diffuse.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "compiler/image/image.h"
-#include "compiler/mesh_io/load.h"
 #include "compiler/image/srgb.h"
+#include "compiler/mesh_io/load.h"
 #include "tests/support/lit_room.h"
 
 using namespace orbc;
@@ -29,15 +29,15 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   scene.ambient = {0.2, 0.2, 0.2};
   const Lit l = lit(scene, 1);
   bake::BakeOptions options;
-  options.coarse = 12, options.fine = 48;
-  const bake::Baked baked = bake::bake(l.room, l.lighting, options, serial_executor()).value();
+  options.min_density = 12, options.max_density = 48;
+  const bake::DiffuseBake baked = bake::bake_diffuse(l.room, l.lighting, options, serial_executor()).value();
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     for (std::size_t i = count; i-- > 0;) task(i);
   };
-  CHECK(bake::bake(l.room, l.lighting, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
+  CHECK(bake::bake_diffuse(l.room, l.lighting, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
   CHECK(baked.atlas.image16.rgb.empty());
   options.with_image16 = true;
-  const bake::Atlas deep = bake::bake(l.room, l.lighting, options, serial_executor())->atlas;
+  const bake::Atlas deep = bake::bake_diffuse(l.room, l.lighting, options, serial_executor())->atlas;
   REQUIRE(deep.image.rgba == baked.atlas.image.rgba);
   REQUIRE(deep.image16.rgb.size() == deep.image.rgba.size() / 4 * 3);
   std::size_t finer = 0;
@@ -78,23 +78,23 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   CHECK(far_off <= asked / 50);  // shadow borders
 }
 
-TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the four that POV-Ray, Cycles and WebGL blend", "[bake]") {
-  // They blend linear light or codes, wrap or clamp: all the same as long as the four are the block's own.
+TEST_CASE("no lookup of baked light leaves its patch: the nearest texel, or the four that POV-Ray, Cycles and WebGL blend", "[bake]") {
+  // They blend linear light or codes, wrap or clamp: all the same as long as the four are the patch's own.
   scene::Scene scene = lit_scene("*2222", scene::LampKind::sphere, true);
   scene.objects.resize(1);
   scene.objects[0].shape = scene::SphereSpec{0.1};
   const Lit l = lit(scene, 0);
   bake::BakeOptions options;
-  options.coarse = 6, options.fine = 24;
-  const bake::Baked baked = bake::bake(l.room, l.lighting, options, serial_executor()).value();
+  options.min_density = 6, options.max_density = 24;
+  const bake::DiffuseBake baked = bake::bake_diffuse(l.room, l.lighting, options, serial_executor()).value();
   const image::Image& image = baked.atlas.image;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
-    std::vector<const bake::Box*> box(l.room.parts[p].triangles.size(), nullptr);
-    for (std::size_t i = 0; i < baked.blocks[p].size(); ++i) {
-      box[baked.blocks[p][i].first] = &baked.boxes[p][i];
-      if (baked.blocks[p][i].second >= 0) box[static_cast<std::size_t>(baked.blocks[p][i].second)] = &baked.boxes[p][i];
+    std::vector<const bake::TexelRect*> rect(l.room.parts[p].triangles.size(), nullptr);
+    for (std::size_t i = 0; i < baked.patches[p].size(); ++i) {
+      rect[baked.patches[p][i].first] = &baked.rects[p][i];
+      if (baked.patches[p][i].second >= 0) rect[static_cast<std::size_t>(baked.patches[p][i].second)] = &baked.rects[p][i];
     }
-    for (std::size_t t = 0; t < box.size(); ++t)
+    for (std::size_t t = 0; t < rect.size(); ++t)
       for (const std::array<double, 3>& b : {std::array{1.0, 0.0, 0.0},
                                              {0.0, 1.0, 0.0},
                                              {0.0, 0.0, 1.0},
@@ -108,10 +108,10 @@ TEST_CASE("no lookup of baked light leaves its block: the nearest texel, or the 
             at[c] += b[k] * static_cast<double>(baked.atlas.uv[p][baked.atlas.room.parts[p].triangles[t][k]][c]);
         const double x = at[0] * image.width - 0.5, y = at[1] * image.height - 0.5;
         constexpr double kNothing = 2e-3;  // of a texel: what single precision leaves
-        REQUIRE(x > box[t]->x - kNothing);
-        REQUIRE(y > box[t]->y - kNothing);
-        REQUIRE(x < box[t]->x + box[t]->width - 1 + kNothing);
-        REQUIRE(y < box[t]->y + box[t]->height - 1 + kNothing);
+        REQUIRE(x > rect[t]->x - kNothing);
+        REQUIRE(y > rect[t]->y - kNothing);
+        REQUIRE(x < rect[t]->x + rect[t]->width - 1 + kNothing);
+        REQUIRE(y < rect[t]->y + rect[t]->height - 1 + kNothing);
       }
   }
 }

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "compiler/bake/bake.h"
+#include "compiler/bake/diffuse.h"
 #include "compiler/geometry/point.h"
 #include "compiler/light/connection.h"
 #include "compiler/mesh_io/load.h"
@@ -52,7 +52,7 @@ TEST_CASE("a point of a coarser level is lit as the surface just there, not as i
     if (part.kind != place::PartKind::object || light::lamp_of_part(part) >= 0) continue;
     for (std::size_t t = 0; t < part.triangles.size(); ++t) {
       const surface::ShadingPoint on = surface::shading_point(l.room, part, l.lighting.normals[p], t, {0.3, 0.5, 0.2});
-      // Long blocks reach beyond the other side; and normals of a level are not quite those of the part.
+      // Long patches reach beyond the other side; and normals of a level are not quite those of the part.
       surface::ShadingPoint turned = on;
       turned.normal = on.geometric_normal;
       const surface::ShadingPoint there = light::project_to_surface(l.lighting, turned, 0.15).point;
@@ -75,16 +75,16 @@ TEST_CASE("a level that is the part itself has its light", "[bake]") {
   both.parts.push_back(l.room.parts[p]);
   scene::BakeSpec draft;
   draft.quality = scene::BakeQuality::draft;
-  const bake::Baked baked = bake::bake(both, l.lighting, bake::bake_options(draft), serial_executor()).value();
-  const auto green = [&](const bake::Box& box, double u, double v) {
-    const int x = box.x + static_cast<int>(std::lround(u * (box.width - 1))),
-              y = box.y + static_cast<int>(std::lround(v * (box.height - 1)));
+  const bake::DiffuseBake baked = bake::bake_diffuse(both, l.lighting, bake::bake_options(draft), serial_executor()).value();
+  const auto green = [&](const bake::TexelRect& rect, double u, double v) {
+    const int x = rect.x + static_cast<int>(std::lround(u * (rect.width - 1))),
+              y = rect.y + static_cast<int>(std::lround(v * (rect.height - 1)));
     return static_cast<int>(baked.atlas.image.rgba[4 * static_cast<std::size_t>(y * baked.atlas.image.width + x) + 1]);
   };
-  REQUIRE(baked.boxes.back().size() == baked.boxes[p].size());
+  REQUIRE(baked.rects.back().size() == baked.rects[p].size());
   int worst = 0, steepest = 0;
-  for (std::size_t b = 0; b < baked.boxes[p].size(); ++b) {
-    const bake::Box &own = baked.boxes[p][b], &lent = baked.boxes.back()[b];
+  for (std::size_t b = 0; b < baked.rects[p].size(); ++b) {
+    const bake::TexelRect &own = baked.rects[p][b], &lent = baked.rects.back()[b];
     for (const double u : {0.0, 1.0})
       for (const double v : {0.0, 1.0}) worst = std::max(worst, std::abs(green(own, u, v) - green(lent, u, v)));
     steepest = std::max(steepest, std::abs(green(own, 0, 1) - green(own, 1, 0)));

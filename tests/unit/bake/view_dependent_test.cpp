@@ -1,18 +1,19 @@
+#include "compiler/bake/view_dependent.h"
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "compiler/bake/eye_image.h"
-#include "compiler/bake/highlight_bake.h"
+#include "compiler/bake/unfolded_eye.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/image/image.h"
 #include "compiler/image/srgb.h"
 #include "compiler/light/connection.h"
+#include "compiler/mesh_io/load.h"
 #include "compiler/notation/parse.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
-#include "compiler/mesh_io/load.h"
 #include "compiler/trace/analytic.h"
 
 using namespace orbc;
@@ -53,10 +54,10 @@ Stage stage(const std::string& orbifold, int bounces, scene::MaterialKind kind) 
   return s;
 }
 
-bake::Baked baked_of(const Stage& s, const light::LightingContext& lighting) {
+bake::DiffuseBake baked_of(const Stage& s, const light::LightingContext& lighting) {
   bake::BakeOptions options;
-  options.coarse = 8, options.fine = 16;
-  return bake::bake(s.room, lighting, options, serial_executor()).value();
+  options.min_density = 8, options.max_density = 16;
+  return bake::bake_diffuse(s.room, lighting, options, serial_executor()).value();
 }
 
 }  // namespace
@@ -87,33 +88,32 @@ TEST_CASE("a point of a copy sees the eye where real mirrors bring its light to 
 TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, copy by copy", "[bake]") {
   const Stage s = stage("*333", 2, scene::MaterialKind::glossy);
   const auto lighting = light::prepare_light(s.scene, s.room).value();
-  REQUIRE(bake::needs_highlights(s.room, lighting));
-  bake::Baked baked = baked_of(s, lighting);
-  const image::Image before = baked.atlas.image;
-  const auto shine = bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, {}, baked, serial_executor());
-  REQUIRE(shine.own.size() > s.copies.size() / 2);
-  CHECK(shine.counts.left_out == 0);
+  REQUIRE(bake::needs_view_bake(s.room, lighting));
+  const bake::DiffuseBake diffuse = baked_of(s, lighting);
+  const image::Image& before = diffuse.atlas.image;
+  const bake::ViewBake view = bake::bake_view_dependent({s.room, lighting, diffuse, s.copies, {}, s.eye}, {}, serial_executor());
+  REQUIRE(view.copy_uv.size() > s.copies.size() / 2);
+  CHECK(view.counts.copies_left_out == 0);
   double brightest = 0;
-  for (const bake::OwnUv& own : shine.own) {
+  for (const bake::CopyUv& own : view.copy_uv) {
     const place::PlacedMesh& part = s.room.parts[own.part];
     REQUIRE(part.name == "ball");
-    const place::PlacedMesh& vertices = baked.atlas.room.parts[own.part];
+    const place::PlacedMesh& vertices = diffuse.atlas.room.parts[own.part];
     std::size_t checked = 0;
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = vertices.triangles[t][k];
-        if (own.uv[v] == baked.atlas.uv[own.part][v]) continue;
+        if (own.uv[v] == view.uv[own.part][v]) continue;
         const surface::ShadingPoint point =
             surface::shading_point(s.room, part, lighting.normals[own.part].vertices[lighting.normals[own.part].corners[t][k]]);
         const scene::Material& material = s.room.looks[part.look[t]].material;
         const scene::Color gloss =
             light::highlight(lighting, point, bake::direction_to_eye(s.copies[own.copy], s.eye, point.at), material, material.color);
         const scene::Color all = light::outgoing_radiance(lighting, material, material.color, light::irradiance(lighting, point)) + gloss;
-        const int x = static_cast<int>(static_cast<double>(own.uv[v][0]) * baked.atlas.image.width),
-                  y = static_cast<int>(static_cast<double>(own.uv[v][1]) * baked.atlas.image.height);
+        const int x = static_cast<int>(static_cast<double>(own.uv[v][0]) * view.image.width),
+                  y = static_cast<int>(static_cast<double>(own.uv[v][1]) * view.image.height);
         const int code =
-            baked.atlas.image
-                .rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(baked.atlas.image.width) + static_cast<std::size_t>(x))];
+            view.image.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(view.image.width) + static_cast<std::size_t>(x))];
         CHECK(code == Approx(255 * image::encode_srgb(std::min(1.0, lighting.exposure * all.r))).margin(2.1));
         brightest = std::max(brightest, gloss.r);
         ++checked;
@@ -124,23 +124,23 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
   // What all copies share keeps its texels.
   for (int y = 0; y < before.height; ++y)
     CHECK(std::equal(before.rgba.begin() + 4 * y * before.width, before.rgba.begin() + 4 * (y + 1) * before.width,
-                     baked.atlas.image.rgba.begin() + 4 * y * baked.atlas.image.width));
+                     view.image.rgba.begin() + 4 * y * view.image.width));
 }
 
 TEST_CASE("highlights are the same bytes for any executor, and none are baked for matte rooms", "[bake]") {
   const Stage s = stage("*22222", 1, scene::MaterialKind::glossy);
   const auto lighting = light::prepare_light(s.scene, s.room).value();
-  bake::Baked one = baked_of(s, lighting), other = one;
+  const bake::DiffuseBake diffuse = baked_of(s, lighting);
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     for (std::size_t i = count; i-- > 0;) task(i);
   };
-  const auto a = bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, {}, one, serial_executor());
-  const auto b = bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, {}, other, backwards);
-  CHECK(one.atlas.image.rgba == other.atlas.image.rgba);
-  REQUIRE(a.own.size() == b.own.size());
-  for (std::size_t i = 0; i < a.own.size(); ++i) CHECK((a.own[i].copy == b.own[i].copy && a.own[i].uv == b.own[i].uv));
+  const auto a = bake::bake_view_dependent({s.room, lighting, diffuse, s.copies, {}, s.eye}, {}, serial_executor());
+  const auto b = bake::bake_view_dependent({s.room, lighting, diffuse, s.copies, {}, s.eye}, {}, backwards);
+  CHECK(a.image.rgba == b.image.rgba);
+  REQUIRE(a.copy_uv.size() == b.copy_uv.size());
+  for (std::size_t i = 0; i < a.copy_uv.size(); ++i) CHECK((a.copy_uv[i].copy == b.copy_uv[i].copy && a.copy_uv[i].uv == b.copy_uv[i].uv));
   const Stage matte = stage("*22222", 1, scene::MaterialKind::matte);
-  CHECK_FALSE(bake::needs_highlights(matte.room, light::prepare_light(matte.scene, matte.room).value()));
+  CHECK_FALSE(bake::needs_view_bake(matte.room, light::prepare_light(matte.scene, matte.room).value()));
 }
 
 TEST_CASE("the eye sees a point of a copy where its log map takes it", "[bake]") {
@@ -168,7 +168,7 @@ TEST_CASE("a side takes as many pixels in the picture as its ends lie apart ther
     const Stage s = stage(orbifold, 2, scene::MaterialKind::glossy);
     const auto space = s.eye.room_from_eye.space;
     for (const cover::Copy& copy : s.copies) {
-      const bake::EyeImage eye = bake::image_of(copy, s.eye);
+      const bake::UnfoldedEye eye = bake::unfold_eye(copy, s.eye);
       const geometry::Position at{geometry::Point(), 0.3};
       const light::Connection sight = bake::connect(eye, at);
       REQUIRE(sight.valid);
@@ -182,7 +182,7 @@ TEST_CASE("a side takes as many pixels in the picture as its ends lie apart ther
           const auto a = bake::direction_from_eye(copy, s.eye, at), b = bake::direction_from_eye(copy, s.eye, next);
           REQUIRE((a && b));
           const double apart = 100 * geometry::length(*b - *a) / (step * std::hypot(1.0, rise));
-          const double said = bake::pixels_along(eye, sight, at, side, 100);
+          const double said = bake::pixel_footprint(eye, sight, at, side, 100);
           CHECK(said > 0.999 * apart);
           CHECK(said < 1.001 * std::max(apart, std::hypot(apart, 0.3 * 100 / sight.length)));
         }
@@ -194,12 +194,11 @@ TEST_CASE("a side takes as many pixels in the picture as its ends lie apart ther
 TEST_CASE("what lies beside the picture has coarser highlights, what lies in it keeps them", "[bake]") {
   Stage s = stage("*333", 0, scene::MaterialKind::glossy);
   const auto lighting = light::prepare_light(s.scene, s.room).value();
-  const bake::Baked shared = baked_of(s, lighting);
+  const bake::DiffuseBake shared = baked_of(s, lighting);
   const auto texels = [&](double coarser) {
-    bake::Baked baked = shared;
-    bake::HighlightOptions options;
-    options.coarser_beside = coarser;
-    return bake::bake_highlights(s.room, lighting, s.copies, {}, s.eye, options, baked, serial_executor()).counts.texels;
+    bake::ViewBakeOptions options;
+    options.offscreen_factor = coarser;
+    return bake::bake_view_dependent({s.room, lighting, shared, s.copies, {}, s.eye}, options, serial_executor()).counts.texels;
   };
   const place::PlacedMesh& ball = s.room.parts[s.room.parts.size() - 1];
   s.eye.forward = *bake::direction_from_eye(s.copies[0], s.eye, {ball.floor[7], ball.z[7]});

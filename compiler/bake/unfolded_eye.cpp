@@ -1,4 +1,4 @@
-#include "compiler/bake/eye_image.h"
+#include "compiler/bake/unfolded_eye.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,21 +10,22 @@ namespace orbc::bake {
 using geometry::Position;
 using trace::Direction;
 
-EyeImage image_of(const cover::Copy& copy, const place::Eye& eye) {
+UnfoldedEye unfold_eye(const cover::Copy& copy, const place::Eye& eye) {
   const geometry::Point foot = eye.room_from_eye * geometry::Point();
   return {eye.room_from_eye.space,
           {geometry::inverse(copy.cover_from_room) * foot, copy.storey.sign * (eye.z - copy.storey.offset)},
           copy.sheet};
 }
 
-light::Connection connect(const EyeImage& eye, const Position& from) { return light::connect(eye.space, from, eye.at, eye.sheet); }
+light::Connection connect(const UnfoldedEye& eye, const Position& from) { return light::connect(eye.space, from, eye.at, eye.sheet); }
 
-double pixels_per_unit(const EyeImage& eye, const light::Connection& sight, double per_radian) {
+double max_pixels_per_unit(const UnfoldedEye& eye, const light::Connection& sight, double per_radian) {
   const double across = std::fabs(geometry::sin_k(eye.space, sight.arc));
   return per_radian * std::max(1 / std::max(sight.length, 1e-3), sight.arc / std::max(sight.length, 1e-3) / std::max(across, 1e-2));
 }
 
-double pixels_along(const EyeImage& eye, const light::Connection& sight, const Position& at, const Direction& side, double per_radian) {
+double pixel_footprint(const UnfoldedEye& eye, const light::Connection& sight, const Position& at, const Direction& side,
+                       double per_radian) {
   const double k = geometry::curvature(eye.space);
   const Direction foot{at.floor, 0};
   const Direction tangent = side + -k * trace::inner(eye.space, side, foot) * foot;
@@ -40,7 +41,7 @@ double pixels_along(const EyeImage& eye, const light::Connection& sight, const P
 }
 
 std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera, const Position& point) {
-  const EyeImage eye = image_of(copy, camera);
+  const UnfoldedEye eye = unfold_eye(copy, camera);
   const light::Connection sight = light::connect(eye.space, eye.at, point, eye.sheet);
   if (!sight.valid) return std::nullopt;
   const trace::Direction floor{sight.direction.floor, 0};
@@ -52,7 +53,7 @@ std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, con
   return geometry::Vector3{c * t.x, c * t.y, z};
 }
 
-bool beside_picture(const place::Eye& camera, const std::vector<geometry::Vector3>& directions) {
+bool outside_frustum(const place::Eye& camera, const std::vector<geometry::Vector3>& directions) {
   if (camera.projection != scene::Projection::perspective || directions.empty()) return false;
   geometry::Vector3 middle;
   for (const auto& d : directions) middle = middle + d;
@@ -67,7 +68,7 @@ bool beside_picture(const place::Eye& camera, const std::vector<geometry::Vector
 }
 
 trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const Position& at) {
-  return connect(image_of(copy, eye), at).direction;
+  return connect(unfold_eye(copy, eye), at).direction;
 }
 
 }  // namespace orbc::bake

@@ -1,4 +1,4 @@
-#include "compiler/bake/surface_map.h"
+#include "compiler/bake/patch_locator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +14,17 @@ using geometry::Point;
 using place::PartKind;
 using place::PlacedMesh;
 
-// (u, v) of a point of a block; the inverse of in_triangle.
-OnBlock place_on(const Block& block, int index, std::size_t triangle, const std::array<double, 3>& b) {
-  if (triangle == block.first)
-    return {index, static_cast<float>(b[static_cast<std::size_t>(block.turn[1])]),
-            static_cast<float>(b[static_cast<std::size_t>(block.turn[2])])};
-  return {index, static_cast<float>(1 - b[static_cast<std::size_t>(block.second_turn[1])]),
-          static_cast<float>(1 - b[static_cast<std::size_t>(block.second_turn[2])])};
+/// The place (u, v) of a point of a triangle in its patch: the inverse of barycentric_point.
+PatchUv place_on(const TexelPatch& patch, int index, std::size_t triangle, const std::array<double, 3>& b) {
+  if (triangle == patch.first)
+    return {index, static_cast<float>(b[static_cast<std::size_t>(patch.corner_order[1])]),
+            static_cast<float>(b[static_cast<std::size_t>(patch.corner_order[2])])};
+  return {index, static_cast<float>(1 - b[static_cast<std::size_t>(patch.second_corner_order[1])]),
+          static_cast<float>(1 - b[static_cast<std::size_t>(patch.second_corner_order[2])])};
 }
 
-// A point of a wall in the ambient plane through the origin that holds the wall (E²: the line itself, at p = 1): (p, v) along its start and
-// its direction, turned so that the middle of the wall lies in the direction of p.
+/// Coordinates (p, v) of a point of a wall in the ambient plane through the origin that holds the wall: p along the middle of the wall, v
+/// along its direction there. In E² the plane is the line itself, and p is 1.
 std::array<double, 2> in_plane_of_wall(geometry::Space space, const room::Wall& wall, const Point& at) {
   const double k = geometry::curvature(space), half = wall.length / 2;
   if (k == 0) return {1, (at.x - wall.start.x) * wall.along.x + (at.y - wall.start.y) * wall.along.y - half};
@@ -36,32 +36,35 @@ std::array<double, 2> in_plane_of_wall(geometry::Space space, const room::Wall& 
 
 }  // namespace
 
-// The cell of a coordinate, moved by part of a cell; the nearest one outside, and of what is no number.
-int SurfaceMap::cell_of(const Chart& chart, int c, double at, double shift) {
-  const double cell = (at - chart.low[c]) / chart.size[c] + shift;
-  return cell > 0 ? static_cast<int>(std::min(cell, chart.cells - 1.0)) : 0;
+// The cell of a coordinate, which is first moved by `shift` cells. Outside of the grid the nearest cell; the first cell of NaN.
+int PatchLocator::cell_of(const CellGrid& grid, int c, double at, double shift) {
+  const double cell = (at - grid.low[c]) / grid.size[c] + shift;
+  return cell > 0 ? static_cast<int>(std::min(cell, grid.cells - 1.0)) : 0;
 }
 
-SurfaceMap::SurfaceMap(const place::PlacedRoom& room, const std::vector<std::vector<Block>>& blocks) : room_(room) {
-  flats_.resize(2 + room.room.walls.size());
-  for (std::size_t p = 0; p < std::min(room.parts.size(), blocks.size()); ++p) {
+PatchLocator::PatchLocator(const place::PlacedRoom& room, std::span<const std::vector<TexelPatch>> patches) : room_(room) {
+  shell_parts_.resize(2 + room.room.walls.size());
+  for (std::size_t p = 0; p < std::min(room.parts.size(), patches.size()); ++p) {
     const PlacedMesh& part = room.parts[p];
-    std::vector<std::uint32_t>& of = block_of_.emplace_back(part.triangles.size());
-    for (const Block& block : blocks[p]) {
-      of[block.first] = static_cast<std::uint32_t>(blocks_.size());
-      if (block.second >= 0) of[static_cast<std::size_t>(block.second)] = static_cast<std::uint32_t>(blocks_.size());
-      blocks_.push_back(&block);
+    std::vector<std::uint32_t>& of = patch_of_triangle_.emplace_back(part.triangles.size());
+    for (const TexelPatch& patch : patches[p]) {
+      of[patch.first] = static_cast<std::uint32_t>(patches_.size());
+      if (patch.second >= 0) of[static_cast<std::size_t>(patch.second)] = static_cast<std::uint32_t>(patches_.size());
+      patches_.push_back(&patch);
     }
     const bool is_flat = part.kind != PartKind::object && part.kind != PartKind::frame;
-    charts_.push_back(is_flat ? chart_of(part) : Chart{});
+    cell_grids_.push_back(is_flat ? make_cell_grid(part) : CellGrid{});
     if (is_flat)
-      flats_[part.kind == PartKind::floor ? 0 : part.kind == PartKind::ceiling ? 1 : 2 + static_cast<std::size_t>(part.wall)].push_back(p);
+      shell_parts_[part.kind == PartKind::floor     ? 0
+                   : part.kind == PartKind::ceiling ? 1
+                                                    : 2 + static_cast<std::size_t>(part.wall)]
+          .push_back(p);
   }
 }
 
-// Where to look for a point: bounded coordinates all over the part. Floor and ceiling in the gnomonic chart, on S², where w may vanish, in
-// the disk; walls in (arc length from the middle of the wall, z).
-std::array<double, 2> SurfaceMap::cell_coordinates(const PlacedMesh& part, const Point& at, double z) const {
+// Coordinates by which points are sorted into cells; they are bounded on each part. Of floor and ceiling those of the gnomonic chart; on
+// S², where w may vanish, those of the disk chart. Of walls the arc length from the middle of the wall, and z.
+std::array<double, 2> PatchLocator::cell_coordinates(const PlacedMesh& part, const Point& at, double z) const {
   const geometry::Space space = room_.room.space;
   if (part.kind == PartKind::wall) {
     const auto [p, v] = in_plane_of_wall(space, room_.room.walls[static_cast<std::size_t>(part.wall)], at);
@@ -72,8 +75,8 @@ std::array<double, 2> SurfaceMap::cell_coordinates(const PlacedMesh& part, const
   return {at.x / scale, at.y / scale};
 }
 
-// Affine barycentric coordinates of a point by the definition of the geodesic triangle, P ∥ Σ bᵢXᵢ: nothing is divided by a coordinate.
-std::array<double, 3> SurfaceMap::barycentric(const PlacedMesh& part, const mesh::Triangle& t, const Point& at, double z) const {
+// Affine barycentric coordinates by the definition of the geodesic triangle, P ∥ Σ bᵢXᵢ. Nothing is divided by a coordinate.
+std::array<double, 3> PatchLocator::barycentric(const PlacedMesh& part, const mesh::Triangle& t, const Point& at, double z) const {
   std::array<double, 3> b{};
   if (part.kind == PartKind::wall) {
     // Σ bᵢ·(Xᵢ × P) = 0 in the plane that holds the wall, Σ bᵢzᵢ = z, Σ bᵢ = 1.
@@ -95,36 +98,42 @@ std::array<double, 3> SurfaceMap::barycentric(const PlacedMesh& part, const mesh
   }
   const double sum = b[0] + b[1] + b[2];
   geometry::Ambient there{0, 0, 0};
-  for (std::size_t k = 0; k < 3; ++k) b[k] /= sum, there = there + b[k] * part.floor[t[k]];
-  // Of a triangle without area these are no numbers; the antipode of a point solves the same equations.
+  for (std::size_t k = 0; k < 3; ++k) {
+    b[k] /= sum;
+    there = there + b[k] * part.floor[t[k]];
+  }
+  // The antipode of a point solves the same equations. In a triangle without area all are NaN.
   const bool here = there.w * at.w + there.x * at.x + there.y * at.y > 0;
   return here ? b : std::array<double, 3>{-1, -1, -1};
 }
 
-SurfaceMap::Chart SurfaceMap::chart_of(const PlacedMesh& part) const {
-  Chart chart;
+PatchLocator::CellGrid PatchLocator::make_cell_grid(const PlacedMesh& part) const {
+  CellGrid grid;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const bool sphere = room_.room.space == geometry::Space::spherical;
   double high[2] = {-kInfinite, -kInfinite};
-  chart.low[0] = chart.low[1] = kInfinite;
+  grid.low[0] = grid.low[1] = kInfinite;
   std::vector<std::array<double, 2>> at;
   for (std::size_t v = 0; v < part.floor.size(); ++v) {
     at.push_back(cell_coordinates(part, part.floor[v], part.z[v]));
-    for (std::size_t c = 0; c < 2; ++c) chart.low[c] = std::min(chart.low[c], at.back()[c]), high[c] = std::max(high[c], at.back()[c]);
+    for (std::size_t c = 0; c < 2; ++c) {
+      grid.low[c] = std::min(grid.low[c], at.back()[c]);
+      high[c] = std::max(high[c], at.back()[c]);
+    }
   }
-  chart.cells = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(part.triangles.size()))), 1, 256);
-  for (int c = 0; c < 2; ++c) chart.size[c] = std::max(high[c] - chart.low[c], 1e-12) / chart.cells;
-  chart.triangles.resize(static_cast<std::size_t>(chart.cells) * static_cast<std::size_t>(chart.cells));
+  grid.cells = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(part.triangles.size()))), 1, 256);
+  for (int c = 0; c < 2; ++c) grid.size[c] = std::max(high[c] - grid.low[c], 1e-12) / grid.cells;
+  grid.triangles.resize(static_cast<std::size_t>(grid.cells) * static_cast<std::size_t>(grid.cells));
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {
     std::array<std::array<double, 2>, 3> q{at[part.triangles[t][0]], at[part.triangles[t][1]], at[part.triangles[t][2]]};
     double bulge = 0;
     bool around = false;
     if (sphere && part.kind == PartKind::wall) {
-      // A wall may be a whole great circle: what crosses the far end of the arc lies in both ends of the chart.
+      // A wall may be a whole great circle: a triangle that crosses the far end of the arc lies at both ends of the grid.
       for (std::size_t k = 1; k < 3; ++k) q[k][0] += 2 * std::numbers::pi * std::round((q[0][0] - q[k][0]) / (2 * std::numbers::pi));
       around = std::max({q[0][0], q[1][0], q[2][0]}) > std::numbers::pi || std::min({q[0][0], q[1][0], q[2][0]}) < -std::numbers::pi;
     } else if (sphere) {
-      // Edges are arcs of less than half a circle: none goes farther from its chord than half of it.
+      // Edges are arcs of less than half a circle: none is farther from its chord than half the length of the chord.
       for (std::size_t k = 0; k < 3; ++k)
         bulge = std::max(bulge, math::hypot(q[(k + 1) % 3][0] - q[k][0], q[(k + 1) % 3][1] - q[k][1]) / 2);
     }
@@ -134,30 +143,30 @@ SurfaceMap::Chart SurfaceMap::chart_of(const PlacedMesh& part) const {
       for (std::size_t c = 0; c < 2; ++c) {
         const double a = std::min({q[0][c], q[1][c], q[2][c]}) - bulge + (c == 0 ? turn : 0),
                      b = std::max({q[0][c], q[1][c], q[2][c]}) + bulge + (c == 0 ? turn : 0);
-        from[c] = std::max(0, cell_of(chart, static_cast<int>(c), a, -0.01));
-        to[c] = cell_of(chart, static_cast<int>(c), b, 0.01);
-        if (turn != 0 && c == 0 && (b < chart.low[0] || a > high[0])) to[0] = -1;
+        from[c] = std::max(0, cell_of(grid, static_cast<int>(c), a, -0.01));
+        to[c] = cell_of(grid, static_cast<int>(c), b, 0.01);
+        if (turn != 0 && c == 0 && (b < grid.low[0] || a > high[0])) to[0] = -1;
       }
       for (int y = from[1]; y <= to[1]; ++y)
-        for (int x = from[0]; x <= to[0]; ++x) chart.triangles[static_cast<std::size_t>(y * chart.cells + x)].push_back(t);
+        for (int x = from[0]; x <= to[0]; ++x) grid.triangles[static_cast<std::size_t>(y * grid.cells + x)].push_back(t);
     }
   }
-  return chart;
+  return grid;
 }
 
-OnBlock SurfaceMap::on_triangle(std::size_t part, std::size_t triangle, const std::array<double, 3>& b) const {
-  const std::uint32_t block = block_of_[part][triangle];
-  return place_on(*blocks_[block], static_cast<int>(block), triangle, b);
+PatchUv PatchLocator::on_triangle(std::size_t part, std::size_t triangle, const std::array<double, 3>& b) const {
+  const std::uint32_t patch = patch_of_triangle_[part][triangle];
+  return place_on(*patches_[patch], static_cast<int>(patch), triangle, b);
 }
 
-OnBlock SurfaceMap::on_flat(std::size_t p, const trace::SurfacePoint& point) const {
+PatchUv PatchLocator::find_on_shell(std::size_t p, const trace::SurfacePoint& point) const {
   const PlacedMesh& part = room_.parts[p];
-  const Chart& chart = charts_[p];
+  const CellGrid& grid = cell_grids_[p];
   const std::array<double, 2> at = cell_coordinates(part, point.at.floor, point.at.z);
-  const int x = cell_of(chart, 0, at[0], 0), y = cell_of(chart, 1, at[1], 0);
-  double best = -0.05;  // how far outside a triangle it may lie: panels end where frames begin
-  OnBlock found;
-  for (const std::uint32_t t : chart.triangles[static_cast<std::size_t>(y * chart.cells + x)]) {
+  const int x = cell_of(grid, 0, at[0], 0), y = cell_of(grid, 1, at[1], 0);
+  double best = -0.05;  // barycentric; a point may lie a little outside of all triangles, because panels end where frames begin
+  PatchUv found;
+  for (const std::uint32_t t : grid.triangles[static_cast<std::size_t>(y * grid.cells + x)]) {
     const std::array<double, 3> b = barycentric(part, part.triangles[t], point.at.floor, point.at.z);
     const double inside = std::min({b[0], b[1], b[2]});
     if (!(inside > best)) continue;
@@ -168,18 +177,18 @@ OnBlock SurfaceMap::on_flat(std::size_t p, const trace::SurfacePoint& point) con
   return found;
 }
 
-OnBlock SurfaceMap::find(const trace::SurfacePoint& point, const trace::Hit& hit) const {
+PatchUv PatchLocator::find(const trace::SurfacePoint& point, const trace::Hit& hit) const {
   if (hit.target == trace::Target::triangle)
     return on_triangle(static_cast<std::size_t>(hit.part), static_cast<std::size_t>(hit.triangle), {hit.b[0], hit.b[1], hit.b[2]});
   const std::size_t flat = hit.target == trace::Target::floor     ? 0
                            : hit.target == trace::Target::ceiling ? 1
                                                                   : 2 + static_cast<std::size_t>(hit.wall);
-  for (const std::size_t p : flats_[flat])
-    if (const OnBlock found = on_flat(p, point); found.block >= 0) return found;
+  for (const std::size_t p : shell_parts_[flat])
+    if (const PatchUv found = find_on_shell(p, point); found.patch >= 0) return found;
   return {};
 }
 
-OnBlock SurfaceMap::stood_for(const trace::Hit& hit, std::uint16_t look) const {
+PatchUv PatchLocator::find_for_lod(const trace::Hit& hit, std::uint16_t look) const {
   if (hit.target != trace::Target::triangle) return {};
   const auto part = static_cast<std::size_t>(hit.part), triangle = static_cast<std::size_t>(hit.triangle);
   if (room_.parts[part].look[triangle] != look) return {};

@@ -1,0 +1,159 @@
+// Light changes slowly except at the borders of shadows, so a patch is sampled adaptively. Interpolated is irradiance, in linear light;
+// compared are encoded colours of the picture. Textures and solid patterns are evaluated for each texel.
+#include "compiler/bake/diffuse_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "compiler/bake/adaptive_grid.h"
+#include "compiler/bake/pattern_density.h"
+#include "compiler/base/elementary.h"
+#include "compiler/image/srgb.h"
+#include "compiler/light/connection.h"
+#include "compiler/surface/albedo.h"
+
+namespace orbc::bake {
+namespace {
+
+using scene::Color;
+
+constexpr double kMaxDiffuseStep =
+    5;  // steps of 1/255 between neighbouring points: where they differ more, the point between them is sampled
+
+/// What the surface of a patch looks like.
+struct PatchStyle {
+  const scene::Material& material;
+  Color color;          ///< of all of it, unless it varies
+  bool varies = false;  ///< it has a texture or a pattern
+};
+PatchStyle style_of(const BakePart& part, const TexelPatch& patch) {
+  const int number = part.mesh.look[patch.first];
+  const place::Look& look = part.room.looks[static_cast<std::size_t>(number)];
+  return {look.material, look.color, surface::varies_in_triangle(part.room, part.mesh, number)};
+}
+
+/// The lamp images that may reach any point of a patch.
+std::vector<std::uint32_t> images_near_patch(const BakePart& part, const TexelPatch& patch) {
+  const geometry::Space space = part.room.room.space;
+  const BarycentricPoint middle = barycentric_point(patch, 0.5, 0.5);
+  const geometry::Position centre = surface::shading_point(part.room, part.mesh, part.normals, middle.triangle, middle.b).at;
+  double radius = 0;
+  const auto include = [&](std::size_t triangle) {
+    for (const std::uint32_t v : part.mesh.triangles[triangle])
+      radius = std::max(radius, math::hypot(geometry::distance(space, centre.floor, part.mesh.floor[v]), part.mesh.z[v] - centre.z));
+  };
+  include(patch.first);
+  if (patch.second >= 0) include(static_cast<std::size_t>(patch.second));
+  return light::images_within(part.lighting, centre, 1.2 * radius);
+}
+
+/// The irradiance of lamps at points of a patch, for refine_grid. Points inside closed things are excluded: nobody sees them.
+struct DirectSampler {
+  const BakePart& part;
+  const VertexLight& vertices;
+  const TexelPatch& patch;
+  PatchStyle style;
+  std::optional<std::vector<std::uint32_t>> images = {};  ///< near the patch; found when the first point needs them
+  std::uint64_t lit_points = 0;                           ///< points at which shadow rays were traced
+
+  GridSample sample(const GridPoint& at) {
+    if (style.material.kind == scene::MaterialKind::emissive) return {};
+    if (at.is_corner()) {
+      const PatchCorner corner = corner_of(patch, at.i > 0, at.j > 0);
+      const std::uint32_t v = part.normals.corners[corner.triangle][corner.k];
+      return {vertices.irradiance[v], vertices.enclosed[v] != 0};
+    }
+    const BarycentricPoint inside = inset_point(patch, at.u(), at.v(), surface::kInset);
+    const BakePoint point = make_bake_point(part, inside.triangle, inside.b, std::max(patch.length_u, patch.length_v) / 2);
+    if (point.known_irradiance) return {*point.known_irradiance};
+    ++lit_points;
+    if (!images) images = images_near_patch(part, patch);
+    const Color irradiance = light::irradiance(part.lighting, point.point, *images);
+    return {irradiance, irradiance == Color{} && light::is_enclosed(part.lighting, point.point)};
+  }
+
+  [[nodiscard]] std::array<double, 3> encoded(const Color& irradiance) const {
+    const Color c = part.lighting.exposure * light::outgoing_radiance(part.lighting, style.material, style.color, irradiance);
+    return {255 * image::encode_srgb(c.r), 255 * image::encode_srgb(c.g), 255 * image::encode_srgb(c.b)};
+  }
+  /// Steps of 1/255 of the picture, in the channel that differs most.
+  [[nodiscard]] double difference(const Color& a, const Color& b) const {
+    if (a == b) return 0;
+    const auto x = encoded(a), y = encoded(b);
+    return std::max({std::fabs(x[0] - y[0]), std::fabs(x[1] - y[1]), std::fabs(x[2] - y[2])});
+  }
+};
+
+/// Every step-th point of a grid.
+IrradianceGrid downsample(const AdaptiveGrid& grid, const TexelPatch& patch) {
+  const GridStep step = grid.sampled;
+  IrradianceGrid few;
+  few.width = (grid.width - 1) / step.u + 1;
+  few.height = (grid.height - 1) / step.v + 1;
+  few.light.resize(static_cast<std::size_t>(few.width) * static_cast<std::size_t>(few.height));
+  for (int j = 0; j < few.height; ++j)
+    for (int i = 0; i < few.width; ++i) {
+      const Color& c = grid.color[grid.index(i * step.u, j * step.v)];
+      few.point(i, j) = {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+    }
+  return extrapolate_beyond_patch(std::move(few), patch);
+}
+
+/// The least number of points that has those of `own`, and is as fine as `other`: texels on the points of the first stay on them.
+int aligned_points(int own, int other) {
+  int cells = own - 1;
+  while (cells < other - 1) cells *= 2;
+  return cells + 1;
+}
+
+/// The size of a patch in texels.
+std::array<int, 2> texel_count(const BakePart& part, const TexelPatch& patch, const PatchStyle& style, const IrradianceGrid& direct,
+                               const IrradianceGrid* indirect) {
+  const double density = style.varies ? pattern_density(part.room, part.mesh, patch, part.options) : 0;
+  const auto for_pattern = [&](double length) { return (1 << halvings(length * density)) + 1; };
+  const int width = indirect ? aligned_points(direct.width, indirect->width) : direct.width;
+  const int height = indirect ? aligned_points(direct.height, indirect->height) : direct.height;
+  return {std::max(width, for_pattern(patch.length_u)), std::max(height, for_pattern(patch.length_v))};
+}
+
+}  // namespace
+
+IrradianceGrid bake_direct(const BakePart& part, const VertexLight& vertices, const TexelPatch& patch) {
+  GridLevels levels;
+  levels.coarse_u = halvings(patch.length_u * part.options.min_density);
+  levels.coarse_v = halvings(patch.length_v * part.options.min_density);
+  levels.fine_u = std::max(levels.coarse_u, halvings(patch.length_u * part.options.max_density));
+  levels.fine_v = std::max(levels.coarse_v, halvings(patch.length_v * part.options.max_density));
+  DirectSampler sampler{part, vertices, patch, style_of(part, patch)};
+  const std::vector<GridSample> coarse = sample_coarse_grid(patch, levels, sampler);
+  AdaptiveGrid grid = refine_grid(patch, levels, coarse, {kMaxDiffuseStep, part.options.tolerance}, sampler);
+  // Up to the line where a thing stands on the floor, light is interpolated from in front of it, not from the dark below it.
+  const GridStep step = grid.sampled;
+  grid = inpaint_excluded(std::move(grid), patch, step);
+  IrradianceGrid irradiance = downsample(grid, patch);
+  irradiance.lit_points = sampler.lit_points;
+  return irradiance;
+}
+
+PatchTexels shade_patch(const BakePart& part, const TexelPatch& patch, const IrradianceGrid& direct, const IrradianceGrid* indirect) {
+  const PatchStyle style = style_of(part, patch);
+  const auto [width, height] = texel_count(part, patch, style, direct, indirect);
+  ColorGrid shown{width, height, std::vector<Color>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  for (int j = 0; j < height; ++j)
+    for (int i = 0; i < width; ++i) {
+      const double u = static_cast<double>(i) / (width - 1), v = static_cast<double>(j) / (height - 1);
+      if (patch.second < 0 && u + v > 1 + 1e-9) {  // beyond the long side of a single triangle: a look-up reaches one texel deep
+        shown.color[shown.index(i, j)] = extrapolate_beyond_patch(shown, i, j);
+        continue;
+      }
+      Color irradiance = interpolate(direct, u, v);
+      if (indirect) irradiance = irradiance + std::numbers::pi * interpolate(*indirect, u, v);
+      const Color albedo = style.varies ? albedo_at(part.room, part.mesh, patch, u, v) : style.color;
+      shown.color[shown.index(i, j)] = part.lighting.exposure * light::outgoing_radiance(part.lighting, style.material, albedo, irradiance);
+    }
+  return encode_texels(part.room, patch, shown, part.options.with_image16);
+}
+
+}  // namespace orbc::bake

@@ -1,0 +1,83 @@
+#include "compiler/bake/patch_texels.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "compiler/bake/atlas.h"
+#include "compiler/image/srgb.h"
+#include "compiler/place/texel.h"
+
+namespace orbc::bake {
+namespace {
+
+using scene::Color;
+
+/// Copies rows of `columns` elements between arrays of different widths, all counted in elements.
+template <class From, class To>
+void copy_rows(From from, std::ptrdiff_t from_width, To to, std::ptrdiff_t to_width, std::ptrdiff_t columns, int rows) {
+  for (int y = 0; y < rows; ++y) std::copy(from + y * from_width, from + y * from_width + columns, to + y * to_width);
+}
+
+std::ptrdiff_t texel_index(int width, const TexelRect& rect, int x, int y) {
+  return static_cast<std::ptrdiff_t>(rect.y + y) * width + rect.x + x;
+}
+
+Color texel(const image::Image& image, int x, int y) {
+  const std::uint8_t* p =
+      image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+  return {image::decode_srgb8(p[0]), image::decode_srgb8(p[1]), image::decode_srgb8(p[2])};
+}
+
+}  // namespace
+
+PatchTexels encode_texels(const place::PlacedRoom& room, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16) {
+  const place::PlacedMesh& mesh = room.parts[patch.part];
+  const bool has_holes = place::has_holes(room.looks[mesh.look[patch.first]]);
+  PatchTexels texels{colors.width, colors.height, {}, {}};
+  texels.rgba.reserve(colors.color.size());
+  for (int j = 0; j < colors.height; ++j)
+    for (int i = 0; i < colors.width; ++i) {
+      const Color& c = colors.color[colors.index(i, j)];
+      const double u = static_cast<double>(i) / (colors.width - 1), v = static_cast<double>(j) / (colors.height - 1);
+      const std::uint8_t alpha = has_holes && is_masked_at(room, patch, u, v) ? 0 : 255;
+      texels.rgba.push_back({image::encode_srgb8(c.r), image::encode_srgb8(c.g), image::encode_srgb8(c.b), alpha});
+      if (with_rgb16) texels.rgb16.push_back({image::encode_srgb16(c.r), image::encode_srgb16(c.g), image::encode_srgb16(c.b)});
+    }
+  return texels;
+}
+
+image::Image assemble_image(const image::Image& base, const std::vector<TexelSource>& sources, const PackedRects& packed) {
+  image::Image image = blank_image(packed.width, packed.height);
+  copy_rows(base.rgba.begin(), 4 * std::ptrdiff_t{base.width}, image.rgba.begin(), 4 * std::ptrdiff_t{image.width},
+            4 * std::ptrdiff_t{base.width}, base.height);
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const std::array<std::uint8_t, 4>* texel = sources[k].rgba;
+    for (int y = 0; y < packed.rects[k].height; ++y)
+      for (int x = 0; x < packed.rects[k].width; ++x, ++texel)
+        std::copy(texel->begin(), texel->end(), image.rgba.begin() + 4 * texel_index(image.width, packed.rects[k], x, y));
+  }
+  return image;
+}
+
+image::Image16 assemble_image16(const image::Image16& base, const std::vector<TexelSource>& sources, const PackedRects& packed) {
+  image::Image16 image = blank_image16(packed.width, packed.height);
+  copy_rows(base.rgb.begin(), 3 * std::ptrdiff_t{base.width}, image.rgb.begin(), 3 * std::ptrdiff_t{image.width},
+            3 * std::ptrdiff_t{base.width}, base.height);
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const std::array<std::uint16_t, 3>* texel = sources[k].rgb16;
+    for (int y = 0; y < packed.rects[k].height; ++y)
+      for (int x = 0; x < packed.rects[k].width; ++x, ++texel)
+        std::copy(texel->begin(), texel->end(), image.rgb.begin() + 3 * texel_index(image.width, packed.rects[k], x, y));
+  }
+  return image;
+}
+
+Color color_in_rect(const image::Image& image, const TexelRect& rect, double u, double v) {
+  const double x = std::clamp(u, 0.0, 1.0) * (rect.width - 1), y = std::clamp(v, 0.0, 1.0) * (rect.height - 1);
+  const int i = std::min(static_cast<int>(x), rect.width - 2), j = std::min(static_cast<int>(y), rect.height - 2);
+  const double s = x - i, t = y - j;
+  const auto at = [&](int column, int row) { return texel(image, rect.x + column, rect.y + row); };
+  return (1 - t) * ((1 - s) * at(i, j) + s * at(i + 1, j)) + t * ((1 - s) * at(i, j + 1) + s * at(i + 1, j + 1));
+}
+
+}  // namespace orbc::bake
