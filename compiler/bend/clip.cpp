@@ -1,4 +1,4 @@
-// Sutherland-Hodgman by the two borders, one after the other; they meet nowhere but on the upright axes through the eye and its antipode.
+// Sutherland–Hodgman at the two borders, one after the other. The borders meet only on the upright axes through the eye and its antipode.
 #include "compiler/bend/clip.h"
 
 #include <algorithm>
@@ -15,26 +15,27 @@ using cover::Wedge;
 using geometry::Ambient;
 using geometry::Space;
 
-constexpr double kOn = 1e-12;   // radians as seen from the eye
+constexpr double kOnBorderRadians = 1e-12;  // as seen from the eye
 
+/// Clips one part. Invariant: vertices on shared edges are computed once, from the ends of the edge alone.
 class Clipper {
  public:
-  Clipper(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv)
-      : wedge_(wedge), map_(map), net_(net), own_(std::make_unique<OwnPart>()) {
-    const place::PlacedMesh& mesh = *net.mesh;
-    own_->mesh.kind = mesh.kind;
-    own_->mesh.name = mesh.name;
-    own_->mesh.wall = mesh.wall;
+  Clipper(const Wedge& wedge, const LogMap& map, const EdgeMesh& part, const Uv& uv)
+      : wedge_(wedge), map_(map), part_(part), result_(std::make_unique<ClippedPart>()) {
+    const place::PlacedMesh& mesh = *part.mesh;
+    result_->mesh.kind = mesh.kind;
+    result_->mesh.name = mesh.name;
+    result_->mesh.wall = mesh.wall;
     new_index_.assign(mesh.floor.size(), -1);
     for (std::size_t i = 0; i < mesh.floor.size(); ++i)
       given_.push_back(vertex(mesh.floor[i], mesh.z[i], uv[i], static_cast<std::int32_t>(i)));
   }
 
-  std::unique_ptr<OwnPart> run() {
-    const place::PlacedMesh& mesh = *net_.mesh;
+  std::unique_ptr<ClippedPart> run() {
+    const place::PlacedMesh& mesh = *part_.mesh;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) clip(i);
     finish();
-    return std::move(own_);
+    return std::move(result_);
   }
 
  private:
@@ -42,20 +43,20 @@ class Clipper {
     Ambient v;
     double z = 0;
     std::array<float, 2> uv{};
-    double value[2] = {0, 0};           // of the borders, ≥ 0 inside
-    std::int32_t given = -1;            // index in the part
-    std::int32_t edge = -1;             // on this edge of the part, cut by border `cut`
+    double value[2] = {0, 0};  // of the borders' covectors; ≥ 0 inside
+    std::int32_t given = -1;   // a vertex of the part: its index
+    std::int32_t edge = -1;    // on an edge of the part: its index, and the border that cuts it
     int cut = -1;
   };
   using Polygon = std::vector<Vertex>;
 
   [[nodiscard]] Vertex vertex(const Ambient& v, double z, const std::array<float, 2>& uv, std::int32_t given) const {
     Vertex made{v, z, uv, {0, 0}, given, -1, -1};
-    Ambient seen = map_.eye_from_copy * v;
-    if (map_.sheet % 2 == 1) seen = -1.0 * seen;
-    const double on = kOn * math::hypot(seen.x, seen.y);
-    made.value[0] = cover::turn(wedge_.from, seen);
-    made.value[1] = -cover::turn(wedge_.to, seen);
+    Ambient eye_point = map_.eye_from_copy * v;
+    if (map_.sheet % 2 == 1) eye_point = -1.0 * eye_point;
+    const double on = kOnBorderRadians * math::hypot(eye_point.x, eye_point.y);
+    made.value[0] = cover::cross(wedge_.from, eye_point);
+    made.value[1] = -cover::cross(wedge_.to, eye_point);
     for (double& value : made.value)
       if (std::fabs(value) <= on) value = 0;
     return made;
@@ -72,9 +73,9 @@ class Clipper {
 
   /// The edge of the part on which both lie, or −1.
   [[nodiscard]] std::int32_t shared_edge(const Vertex& a, const Vertex& b, std::size_t triangle) const {
-    for (const std::uint32_t id : net_.triangle_edges[triangle]) {
+    for (const std::uint32_t id : part_.triangle_edges[triangle]) {
       const auto lies_on = [&](const Vertex& p) {
-        const auto& ends = net_.edges[id];
+        const auto& ends = part_.edges[id];
         return p.given >= 0 ? ends[0] == static_cast<std::uint32_t>(p.given) || ends[1] == static_cast<std::uint32_t>(p.given)
                             : p.edge == static_cast<std::int32_t>(id);
       };
@@ -86,9 +87,9 @@ class Clipper {
   [[nodiscard]] Vertex cut(const Vertex& a, const Vertex& b, int border, std::size_t triangle) const {
     const std::int32_t edge = shared_edge(a, b, triangle);
     if (edge < 0) return between(a, b, border);
-    const auto& ends = net_.edges[static_cast<std::size_t>(edge)];
+    const auto& ends = part_.edges[static_cast<std::size_t>(edge)];
     const Vertex &p = given_[ends[0]], &q = given_[ends[1]];
-    // An end on the border would not have been cut; after rounding it may have been.
+    // Rounding may cut an edge whose end is on the border.
     Vertex made = (p.value[border] < 0) != (q.value[border] < 0) ? between(p, q, border) : between(a, b, border);
     made.edge = edge;
     made.cut = border;
@@ -107,7 +108,7 @@ class Clipper {
   }
 
   void clip(std::size_t i) {
-    const auto& t = net_.mesh->triangles[i];
+    const auto& t = part_.mesh->triangles[i];
     Polygon polygon{given_[t[0]], given_[t[1]], given_[t[2]]};
     for (int border = 0; border < 2; ++border) {
       const auto beyond = [&](const Vertex& p) { return p.value[border] <= 0; };
@@ -120,7 +121,7 @@ class Clipper {
     for (const Vertex& p : polygon) ids.push_back(index_of(p));
     for (std::size_t k = 1; k + 1 < ids.size(); ++k) {
       if (ids[0] == ids[k] || ids[k] == ids[k + 1] || ids[k + 1] == ids[0]) continue;
-      own_->mesh.triangles.push_back({ids[0], ids[k], ids[k + 1]});
+      result_->mesh.triangles.push_back({ids[0], ids[k], ids[k + 1]});
     }
   }
 
@@ -137,24 +138,24 @@ class Clipper {
   }
 
   std::uint32_t add(const Vertex& p) {
-    own_->mesh.floor.emplace_back(p.v.w, p.v.x, p.v.y);
-    own_->mesh.z.push_back(p.z);
-    own_->uv.push_back(p.uv);
-    return static_cast<std::uint32_t>(own_->mesh.floor.size() - 1);
+    result_->mesh.floor.emplace_back(p.v.w, p.v.x, p.v.y);
+    result_->mesh.z.push_back(p.z);
+    result_->uv.push_back(p.uv);
+    return static_cast<std::uint32_t>(result_->mesh.floor.size() - 1);
   }
 
   void finish() {
-    // The net is measured on the surface; splitting starts from the affine vertices.
-    const std::vector<geometry::Point> affine = own_->mesh.floor;
-    for (geometry::Point& p : own_->mesh.floor) p = geometry::normalised_point(map_.space, p);
-    own_->net = part_net(map_.space, own_->mesh, net_.along);
-    own_->mesh.floor = affine;
+    // The edge mesh is measured on the surface; splitting starts from the affine vertices.
+    const std::vector<geometry::Point> affine = result_->mesh.floor;
+    for (geometry::Point& p : result_->mesh.floor) p = geometry::normalised_point(map_.space, p);
+    result_->part = edge_mesh(map_.space, result_->mesh, part_.color_tolerance);
+    result_->mesh.floor = affine;
   }
 
   const Wedge& wedge_;
   const LogMap& map_;
-  const PartNet& net_;
-  std::unique_ptr<OwnPart> own_;
+  const EdgeMesh& part_;
+  std::unique_ptr<ClippedPart> result_;
   std::vector<Vertex> given_;
   std::vector<std::int32_t> new_index_;
   std::map<std::pair<std::int32_t, int>, std::uint32_t> cut_index_;
@@ -162,62 +163,63 @@ class Clipper {
 
 }  // namespace
 
-InWedge place_in(const Wedge& wedge, const LogMap& map, const PartNet& net, double margin) {
-  Ambient seen = map.eye_from_copy * net.centre;
-  if (map.sheet % 2 == 1) seen = -1.0 * seen;
-  const double first = geometry::asin_k(map.space, cover::turn(wedge.from, seen)),
-               second = geometry::asin_k(map.space, -cover::turn(wedge.to, seen));
-  const double across = geometry::asin_k(map.space, margin * math::hypot(seen.x, seen.y));
-  const double radius = net.radius * (1 + margin + 1e-9) + across + 1e-9;
-  if (radius > std::numbers::pi / 2 && map.space == Space::spherical) return InWedge::some;
-  if (first < -radius || second < -radius) return InWedge::none;
-  return first > radius && second > radius ? InWedge::all : InWedge::some;
+WedgeOverlap wedge_overlap(const Wedge& wedge, const LogMap& map, const EdgeMesh& part, double margin) {
+  Ambient eye_point = map.eye_from_copy * part.circle.centre;
+  if (map.sheet % 2 == 1) eye_point = -1.0 * eye_point;
+  const double first = geometry::asin_k(map.space, cover::cross(wedge.from, eye_point)),
+               second = geometry::asin_k(map.space, -cover::cross(wedge.to, eye_point));
+  const double across = geometry::asin_k(map.space, margin * math::hypot(eye_point.x, eye_point.y));
+  const double radius = part.circle.radius * (1 + margin + 1e-9) + across + 1e-9;
+  if (radius > std::numbers::pi / 2 && map.space == Space::spherical) return WedgeOverlap::partial;
+  if (first < -radius || second < -radius) return WedgeOverlap::outside;
+  return first > radius && second > radius ? WedgeOverlap::inside : WedgeOverlap::partial;
 }
 
-std::unique_ptr<OwnPart> reaching(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv, double margin) {
-  const place::PlacedMesh& mesh = *net.mesh;
-  // Bit b: beyond border b. The sine of the angle to a border is least at a corner of a triangle.
+std::unique_ptr<ClippedPart> triangles_touching(const Wedge& wedge, const LogMap& map, const EdgeMesh& part, const Uv& uv, double margin) {
+  const place::PlacedMesh& mesh = *part.mesh;
+  // Bit b: beyond border b. Over a triangle, the sine of the angle to a border is smallest at a corner.
   std::vector<std::uint8_t> beyond(mesh.floor.size());
   for (std::size_t i = 0; i < beyond.size(); ++i) {
-    Ambient seen = map.eye_from_copy * mesh.floor[i];
-    if (map.sheet % 2 == 1) seen = -1.0 * seen;
-    const double near = margin * math::hypot(seen.x, seen.y);
-    beyond[i] = static_cast<std::uint8_t>((cover::turn(wedge.from, seen) < -near ? 1 : 0) | (-cover::turn(wedge.to, seen) < -near ? 2 : 0));
+    Ambient eye_point = map.eye_from_copy * mesh.floor[i];
+    if (map.sheet % 2 == 1) eye_point = -1.0 * eye_point;
+    const double near = margin * math::hypot(eye_point.x, eye_point.y);
+    beyond[i] = static_cast<std::uint8_t>((cover::cross(wedge.from, eye_point) < -near ? 1 : 0) |
+                                          (-cover::cross(wedge.to, eye_point) < -near ? 2 : 0));
   }
-  auto own = std::make_unique<OwnPart>();
-  own->mesh.kind = mesh.kind;
-  own->mesh.name = mesh.name;
-  own->mesh.wall = mesh.wall;
+  auto result = std::make_unique<ClippedPart>();
+  result->mesh.kind = mesh.kind;
+  result->mesh.name = mesh.name;
+  result->mesh.wall = mesh.wall;
   std::vector<std::int32_t> index(mesh.floor.size(), -1);
   for (const mesh::Triangle& t : mesh.triangles) {
     if (beyond[t[0]] & beyond[t[1]] & beyond[t[2]]) continue;
-    own->mesh.triangles.push_back(t);
+    result->mesh.triangles.push_back(t);
     for (const std::uint32_t corner : t) index[corner] = 0;
   }
-  // In the order of the part, so that edges run the same way.
+  // Vertices keep their order, so that edges keep their direction.
   for (std::size_t i = 0; i < index.size(); ++i) {
     if (index[i] < 0) continue;
-    index[i] = static_cast<std::int32_t>(own->mesh.floor.size());
-    own->mesh.floor.push_back(mesh.floor[i]);
-    own->mesh.z.push_back(mesh.z[i]);
-    own->uv.push_back(uv[i]);
+    index[i] = static_cast<std::int32_t>(result->mesh.floor.size());
+    result->mesh.floor.push_back(mesh.floor[i]);
+    result->mesh.z.push_back(mesh.z[i]);
+    result->uv.push_back(uv[i]);
   }
-  for (mesh::Triangle& t : own->mesh.triangles)
+  for (mesh::Triangle& t : result->mesh.triangles)
     for (auto& corner : t) corner = static_cast<std::uint32_t>(index[corner]);
-  own->net = part_net(map.space, own->mesh, net.along);
-  return own;
+  result->part = edge_mesh(map.space, result->mesh, part.color_tolerance);
+  return result;
 }
 
-std::unique_ptr<OwnPart> clipped(const Wedge& wedge, const LogMap& map, const PartNet& net, const Uv& uv) {
-  return Clipper(wedge, map, net, uv).run();
+std::unique_ptr<ClippedPart> clipped(const Wedge& wedge, const LogMap& map, const EdgeMesh& part, const Uv& uv) {
+  return Clipper(wedge, map, part, uv).run();
 }
 
-std::unique_ptr<OwnPart> lifted(const cover::Storey& storey, geometry::Space space, const PartNet& net) {
-  auto own = std::make_unique<OwnPart>();
-  own->mesh = *net.mesh;
-  for (double& z : own->mesh.z) z = storey.sign * z + storey.offset;
-  own->net = part_net(space, own->mesh, net.along);
-  return own;
+std::unique_ptr<ClippedPart> on_storey(const cover::Storey& storey, geometry::Space space, const EdgeMesh& part) {
+  auto result = std::make_unique<ClippedPart>();
+  result->mesh = *part.mesh;
+  for (double& z : result->mesh.z) z = storey.sign * z + storey.offset;
+  result->part = edge_mesh(space, result->mesh, part.color_tolerance);
+  return result;
 }
 
 }  // namespace orbc::bend

@@ -1,4 +1,4 @@
-// r(ρ, w) of the design, §2; sheets of S²: cover/copy.h. Everything here is double; log_map_simd.cpp is the fast twin.
+// Formulas: design §2; sheets of S²: cover/copy.h. Everything is computed in double here; log_map_simd.cpp is the fast version.
 #include "compiler/bend/log_map.h"
 
 #include <cmath>
@@ -19,9 +19,9 @@ geometry::Vector3 bent_position(const LogMap& map, const Ambient& p, double z) {
     return {q.x * (r / rho), q.y * (r / rho), z};
   }
   const bool far_side = map.sheet % 2 == 1;
-  const double reach = far_side ? r - (map.sheet + 1) * std::numbers::pi : map.sheet * std::numbers::pi + r;
-  if (rho < 1e-150) return {reach, 0, z};
-  return {q.x * (reach / rho), q.y * (reach / rho), z};
+  const double path = far_side ? r - (map.sheet + 1) * std::numbers::pi : map.sheet * std::numbers::pi + r;
+  if (rho < 1e-150) return {path, 0, z};
+  return {q.x * (path / rho), q.y * (path / rho), z};
 }
 
 void bend_points_scalar(const LogMap& map, const PointColumns& points, std::size_t first, std::size_t count, float* out) {

@@ -1,6 +1,6 @@
 #pragma once
-// One point through the kernel of log_map_simd.cpp, without vectors: the same operations in the same order, hence the same bits. For
-// processors and browsers without vector instructions.
+// The kernel of log_map_simd.cpp for one point, without vector instructions: the same operations in the same order, hence the same bits.
+// For processors and browsers without vector instructions.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -34,7 +34,7 @@ inline float atan2_plain(float rho, float w) {
   return w < 0 ? (3.14159274f - angle) + -8.74227766e-8f : angle;
 }
 
-/// In: as the kernel: the matrix row by row, `base` where the sheet's reach begins.
+/// In: the matrix row by row; `base`, the distance at which the sheet begins, negative where the image lies in the opposite direction.
 inline void bend_one(int curvature, const double* m, float base, double w, double x, double y, float z, float* out) {
   const auto row = [&](int i) { return static_cast<float>(m[i] * w + (m[i + 1] * x + m[i + 2] * y)); };
   const float u = row(3), v = row(6), rho2 = u * u + v * v, rho = std::sqrt(rho2);

@@ -1,11 +1,11 @@
-// The fast twin of log_map.cpp. Idea and measured alternatives: the matrix product must be double (in float, cancellation near the eye and
-// near the antipode costs 250 and 1000 ulp), the arc length may be float. Highway compiles this file once per instruction set and picks one
-// at run time.
-//   H²: r = asinh ρ;   S²: r = atan2(ρ, w);   the image is (x, y)·(reach/ρ).
-// Polynomials: interpolation at Chebyshev nodes; relative errors of both 5e-9 and 3e-9.
-// The same bits with every instruction set, so that a file does not depend on who compiled the scene: only operations that IEEE 754 rounds
-// correctly, in one order, and none of them fused. That costs S² 3 % and nothing in E²; the shorter polynomials win 30 % in H² (measured
-// with AVX-512 against the fused kernel before).
+// The fast version of log_map.cpp. The matrix product must be computed in double (in float, cancellation near the eye and near the antipode
+// costs 250 and 1000 ulp); the arc length may be computed in float. Highway compiles this file once per instruction set and selects one at
+// run time.
+//   H²: r = asinh ρ;   S²: r = atan2(ρ, w) + base;   the image is (x, y)·(r/ρ).
+// The polynomials interpolate at Chebyshev nodes; their relative errors are 5e-9 (asinh) and 3e-9 (atan2).
+// All instruction sets give the same bits, so that a file does not depend on the machine that compiled the scene: only operations that
+// IEEE 754 rounds correctly are used, in one order, none of them fused. Compared with a fused kernel this costs 3 % in S² and nothing in
+// E²; the shorter polynomials gain 30 % in H² (measured with AVX-512).
 #ifndef __EMSCRIPTEN__
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "compiler/bend/log_map_simd.cpp"
@@ -115,14 +115,14 @@ HWY_INLINE void bend_block(const Rows& rows, float base, const double* pw, const
   }
   const auto rho2 = mul_add(x, x, hn::Mul(y, y));
   const auto rho = hn::Sqrt(rho2);
-  // Closer than 1e-15 to the axis the factor is its limit on sheet 0 (1); what has no image there is nobody's vertex.
+  // Closer than 1e-15 to the axis the factor is 1, its limit on sheet 0. On other sheets there are no vertices so close (tessellate.h).
   const auto tiny = hn::Lt(rho2, constant(1e-30f));
   Float r;
   if constexpr (kCurvature < 0) {
     r = asinh_of(rho, hn::Sqrt(hn::Add(constant(1), rho2)));
   } else {
     const auto w = row(rows.m, w0, x0, y0, w1, x1, y1);
-    r = hn::Add(constant(base), atan2_of(rho, w));  // base: where sheet `sheet` begins; negative where the image is opposite
+    r = hn::Add(constant(base), atan2_of(rho, w));
   }
   const auto factor = hn::IfThenElse(tiny, constant(1), hn::Div(r, rho));
   hn::StoreInterleaved3(hn::Mul(x, factor), hn::Mul(y, factor), z, df, out);
@@ -138,11 +138,11 @@ void bend_all(const double* matrix, float base, const double* w, const double* x
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) bend_block<kCurvature>(rows, base, w + i, x + i, y + i, z + i, out + 3 * i);
   if (i == count) return;
-  // The rest goes through the same code on a padded block, so that a vertex has the same bits wherever it stands.
-  constexpr std::size_t kMost = HWY_MAX_BYTES / sizeof(float);
-  double tw[kMost], tx[kMost] = {}, ty[kMost] = {};
-  float tz[kMost] = {}, bent[3 * kMost];
-  std::fill(tw, tw + kMost, 1.0);
+  // The remaining points go through the same code in a padded block, so that the bits of a vertex do not depend on its index.
+  constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+  double tw[kMaxLanes], tx[kMaxLanes] = {}, ty[kMaxLanes] = {};
+  float tz[kMaxLanes] = {}, bent[3 * kMaxLanes];
+  std::fill(tw, tw + kMaxLanes, 1.0);
   const std::size_t rest = count - i;
   std::copy_n(w + i, rest, tw);
   std::copy_n(x + i, rest, tx);
@@ -183,7 +183,7 @@ void bend_points(const LogMap& map, const PointColumns& points, std::size_t firs
     matrix[i] = map.eye_from_copy[i / 3][i % 3];
     largest = std::max(largest, std::abs(matrix[i]));
   }
-  // ρ² must stay below 3e38 in float; what lies farther than 30 curvature radii goes the slow way. Rooms reach w < 1e4.
+  // ρ² must stay below 3e38 in float, so points beyond 30 curvature radii are computed without vectors. Rooms have w < 1e4.
   if (map.space == geometry::Space::hyperbolic && largest > 1e13) return bend_points_scalar(map, points, first, count, out);
   const bool far_side = map.sheet % 2 == 1;
   const float base = static_cast<float>(far_side ? -(map.sheet + 1) * std::numbers::pi : map.sheet * std::numbers::pi);

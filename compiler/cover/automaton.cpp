@@ -1,6 +1,6 @@
-// A word w is reduced and stays so with s exactly when α_s is none of the positive roots that w turns negative; of these only the minimal
-// ones matter. Appending s maps this set T to {α_s} ∪ sT. For ShortLex also s·α_t with t < s is barred: a later wall that uses it up would
-// show that the word could have begun with t instead (Brink–Howlett 1993; Casselman 2002).
+// A reduced word w stays reduced when s is appended exactly if α_s is none of the positive roots that w makes negative; only minimal roots
+// matter here. Appending s maps this set T to {α_s} ∪ sT. ShortLex forbids also s·α_t for t < s: if a later letter used it up, the word
+// could have t in place of s (Brink–Howlett 1993; Casselman 2002).
 #include "compiler/cover/automaton.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 using Root = MinimalRoots::Root;
 using Roots = std::vector<Root>;  // ascending
 
-// Sets of up to k roots of one corner come as few runs of successive numbers: [first, last, first, last, …].
+// Roots of one corner form few runs of successive numbers, so sets of roots are stored as runs: [first, last, first, last, …].
 Roots runs_of(const Roots& roots) {
   Roots runs;
   for (const Root root : roots) {
@@ -31,14 +31,14 @@ Roots roots_of(const Roots& runs) {
   return roots;
 }
 
-Roots image_of(const MinimalRoots& roots, int wall, const Roots& runs, bool bar_smaller) {
+Roots image_of(const MinimalRoots& roots, int wall, const Roots& runs, bool forbid_smaller) {
   Roots image{wall};
   const auto add = [&](Root root) {
     const Root r = roots.image(wall, root);
     if (r >= 0) image.push_back(r);
   };
   for (const Root root : roots_of(runs)) add(root);
-  for (Root smaller = 0; bar_smaller && smaller < wall; ++smaller) add(smaller);
+  for (Root smaller = 0; forbid_smaller && smaller < wall; ++smaller) add(smaller);
   std::sort(image.begin(), image.end());
   image.erase(std::unique(image.begin(), image.end()), image.end());
   return runs_of(image);
@@ -57,7 +57,7 @@ std::uint64_t simple_bits(const Roots& runs, int walls) {
   return bits;
 }
 
-// Whether a right angle makes roots of three walls, or of a corner and a third wall, possible.
+// Whether a right angle allows minimal roots that involve all three walls of a triangle.
 bool needs_table(const MinimalRoots& roots) {
   if (roots.walls() != 3 || roots.order(1, 2) == 0) return false;
   return roots.order(0, 1) == 2 || roots.order(1, 2) == 2 || roots.order(0, 2) == 2;
@@ -78,15 +78,17 @@ CornerAutomaton::CornerAutomaton(const MinimalRoots& roots) : sides_(static_cast
     if (order == 0) continue;
     Side& here = sides_[static_cast<std::size_t>(wall)];
     Side& there = sides_[static_cast<std::size_t>(next)];
-    here.right = next, here.right_order = order;
-    there.left = wall, there.left_order = order;
+    here.right = next;
+    here.right_order = order;
+    there.left = wall;
+    there.left_order = order;
   }
 }
 
 TableAutomaton::TableAutomaton(const MinimalRoots& roots, int max_length) : walls_(roots.walls()) {
   struct Sets {
-    Roots barred, turned;  // as runs
-    bool operator<(const Sets& other) const { return barred != other.barred ? barred < other.barred : turned < other.turned; }
+    Roots forbidden, negated;  // as runs
+    bool operator<(const Sets& other) const { return forbidden != other.forbidden ? forbidden < other.forbidden : negated < other.negated; }
   };
   std::map<Sets, State> numbers{{Sets{}, 0}};
   std::vector<Sets> level{Sets{}};  // the states of one length, in the order of their numbers
@@ -95,21 +97,21 @@ TableAutomaton::TableAutomaton(const MinimalRoots& roots, int max_length) : wall
     std::vector<Sets> following;
     for (const Sets& state : level) {
       for (int wall = 0; wall < walls_; ++wall) {
-        if (contains(state.barred, wall)) {
+        if (contains(state.forbidden, wall)) {
           next_.push_back(-1);
           continue;
         }
-        Sets after{image_of(roots, wall, state.barred, true), image_of(roots, wall, state.turned, false)};
+        Sets after{image_of(roots, wall, state.forbidden, true), image_of(roots, wall, state.negated, false)};
         const auto [at, is_new] = numbers.insert({after, static_cast<State>(descents_.size())});
         next_.push_back(at->second);
         if (!is_new) continue;
-        descents_.push_back(simple_bits(after.turned, walls_));
+        descents_.push_back(simple_bits(after.negated, walls_));
         following.push_back(std::move(after));
       }
     }
     level = std::move(following);
   }
-  // States that only words of the full length reach are not continued.
+  // States that only words of the full length reach have no transitions.
   next_.resize(descents_.size() * static_cast<std::size_t>(walls_), -1);
 }
 
@@ -130,9 +132,9 @@ bool is_normal_form(const Automaton& automaton, const Word& word) {
       automaton.machine());
 }
 
-Word times(const Automaton& automaton, const Word& word, int wall) {
-  // Going back through the word, `root` is the simple root of `wall` seen from there. Where it is simple, its wall could stand there
-  // instead.
+Word multiply(const Automaton& automaton, const Word& word, int wall) {
+  // Going back through the word, `root` is the image of the simple root of `wall` under the letters passed. Where it is a simple root, its
+  // letter may be inserted there instead.
   const MinimalRoots& roots = automaton.roots();
   Root root = wall;
   std::size_t best = word.size();
@@ -144,7 +146,10 @@ Word times(const Automaton& automaton, const Word& word, int wall) {
       return shorter;
     }
     root = roots.image(word[i], root);
-    if (root >= 0 && root < roots.walls() && root < word[i]) best = i, letter = root;
+    if (root >= 0 && root < roots.walls() && root < word[i]) {
+      best = i;
+      letter = root;
+    }
   }
   Word longer = word;
   longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(best), static_cast<std::uint8_t>(letter));
@@ -153,7 +158,7 @@ Word times(const Automaton& automaton, const Word& word, int wall) {
 
 Word normal_form(const Automaton& automaton, const Word& word) {
   Word result;
-  for (const std::uint8_t wall : word) result = times(automaton, result, wall);
+  for (const std::uint8_t wall : word) result = multiply(automaton, result, wall);
   return result;
 }
 

@@ -10,17 +10,18 @@
 
 namespace orbc::cover {
 
-/// ShortLex automaton of rooms whose minimal roots all belong to one corner: N ≥ 4, triangles without a right angle, two walls, one wall,
-/// the strips. Computed, not stored: a state is the last wall and how many roots of its two corners are taken, counted from that wall.
-/// Of each corner the first k steps of an alternating word use up its k roots one by one; a wall whose simple root is taken is barred.
+/// The ShortLex automaton of a room whose minimal roots all belong to one corner each: N ≥ 4, triangles without a right angle, two walls,
+/// one wall, the strips. Its transitions are computed, not stored. A state is the last letter and, for each of its two corners, how many of
+/// the corner's roots are used up, counted from the last wall. Each step of an alternating word of a corner of order k uses up one of its k
+/// roots. A letter is forbidden when its simple root is used up.
 class CornerAutomaton {
  public:
   struct State {
     std::int32_t last = -1;
-    std::int32_t barred_left = 0,
-                 barred_right =
-                     0;  // for ShortLex: roots that would make the word longer or lexicographically later than another of its element
-    std::int32_t turned_left = 0, turned_right = 0;  // roots that the element makes negative
+    /// Roots whose letters would make the word longer than another word of its element, or lexicographically later
+    std::int32_t forbidden_left = 0, forbidden_right = 0;
+    /// Roots that the element makes negative
+    std::int32_t negated_left = 0, negated_right = 0;
   };
   explicit CornerAutomaton(const MinimalRoots& roots);
 
@@ -28,7 +29,9 @@ class CornerAutomaton {
   [[nodiscard]] static State start() { return {}; }
 
   /// Whether the normal form of `state` followed by `wall` is again one.
-  [[nodiscard]] bool allows(const State& state, int wall) const { return !has_root(state, wall, state.barred_left, state.barred_right); }
+  [[nodiscard]] bool allows(const State& state, int wall) const {
+    return !has_root(state, wall, state.forbidden_left, state.forbidden_right);
+  }
 
   /// In: allows(state, wall).
   [[nodiscard]] State next(const State& state, int wall) const {
@@ -36,29 +39,34 @@ class CornerAutomaton {
     State after;
     after.last = wall;
     if (side.left >= 0) {
-      const bool same = side.left == state.last;  // we stay in that corner, which is the right one of the last wall
-      after.barred_left = same                                                                                    ? state.barred_right + 1
-                          : side.left < wall || has_root(state, side.left, state.barred_left, state.barred_right) ? 2
-                                                                                                                  : 1;
-      after.turned_left = same ? state.turned_right + 1 : has_root(state, side.left, state.turned_left, state.turned_right) ? 2 : 1;
+      // The left corner of this wall is the right one of the wall before it.
+      if (side.left == state.last) {
+        after.forbidden_left = state.forbidden_right + 1;
+        after.negated_left = state.negated_right + 1;
+      } else {
+        after.forbidden_left = side.left < wall || has_root(state, side.left, state.forbidden_left, state.forbidden_right) ? 2 : 1;
+        after.negated_left = has_root(state, side.left, state.negated_left, state.negated_right) ? 2 : 1;
+      }
     }
     if (side.right >= 0) {
-      const bool same = side.right == state.last;
-      after.barred_right = same                                                                                      ? state.barred_left + 1
-                           : side.right < wall || has_root(state, side.right, state.barred_left, state.barred_right) ? 2
-                                                                                                                     : 1;
-      after.turned_right = same ? state.turned_left + 1 : has_root(state, side.right, state.turned_left, state.turned_right) ? 2 : 1;
+      if (side.right == state.last) {
+        after.forbidden_right = state.forbidden_left + 1;
+        after.negated_right = state.negated_left + 1;
+      } else {
+        after.forbidden_right = side.right < wall || has_root(state, side.right, state.forbidden_left, state.forbidden_right) ? 2 : 1;
+        after.negated_right = has_root(state, side.right, state.negated_left, state.negated_right) ? 2 : 1;
+      }
     }
     return after;
   }
 
-  /// Bit i: wall i shortens the element (i < 64).
+  /// Bit i (below 64): letter i makes the element shorter.
   [[nodiscard]] std::uint64_t descents(const State& state) const {
     if (state.last < 0) return 0;
     const Side& side = sides_[static_cast<std::size_t>(state.last)];
     std::uint64_t walls = bit(state.last);
-    if (side.left >= 0 && state.turned_left == side.left_order) walls |= bit(side.left);
-    if (side.right >= 0 && state.turned_right == side.right_order) walls |= bit(side.right);
+    if (side.left >= 0 && state.negated_left == side.left_order) walls |= bit(side.left);
+    if (side.right >= 0 && state.negated_right == side.right_order) walls |= bit(side.right);
     return walls;
   }
 
@@ -78,13 +86,13 @@ class CornerAutomaton {
   std::vector<Side> sides_;
 };
 
-/// ShortLex automaton of any room as a table: a state is a set of minimal roots. Used for triangles with a right angle, where roots of
-/// three walls occur.
+/// The ShortLex automaton of any room as a table: a state is a set of minimal roots. Used for triangles with a right angle, which have
+/// roots of three walls.
 class TableAutomaton {
  public:
   using State = std::int32_t;
 
-  /// Makes: all states that words of at most `max_length` walls reach.
+  /// Makes: all states that words of at most `max_length` letters reach.
   TableAutomaton(const MinimalRoots& roots, int max_length);
 
   [[nodiscard]] int walls() const { return walls_; }
@@ -102,9 +110,10 @@ class TableAutomaton {
   std::vector<std::uint64_t> descents_;
 };
 
-/// Lists every copy of an orbifold's room exactly once: it accepts the ShortLex normal forms of the reflection group (walls from 0, smaller
-/// numbers first) and nothing else. No floating-point number decides. Immutable after construction, so threads may share it.
-/// In:   a good orbifold with integer corners (at most 256); words up to `max_length`.
+/// Accepts the ShortLex normal forms of the reflection group of an orbifold (letters from 0, smaller letters first) and nothing else, so
+/// that it lists every copy of the room exactly once. The letters are the walls that reflect. Immutable, so threads may share it.
+/// In:    a good orbifold with at most 256 integer corners; words of at most `max_length` letters.
+/// Exact: no floating-point number decides.
 class Automaton {
  public:
   explicit Automaton(const notation::Orbifold& orbifold, int max_length = 1024);
@@ -120,15 +129,14 @@ class Automaton {
   std::variant<CornerAutomaton, TableAutomaton> machine_;
 };
 
-/// Whether the word is the ShortLex normal form of its element. In: at most max_length walls.
+/// Whether a word of at most max_length letters is the ShortLex normal form of its element.
 [[nodiscard]] bool is_normal_form(const Automaton& automaton, const Word& word);
-/// The normal form of (normal form `word`) · s_wall, in one pass over the word; its length is one more or one less.
-/// Source: du Cloux, Un algorithme de forme normale pour les groupes de Coxeter (1990): one letter goes in or out.
-[[nodiscard]] Word times(const Automaton& automaton, const Word& word, int wall);
-/// The normal form of the element of any word, however long or redundant: two paths of a beam lead to the same copy exactly when these
-/// agree.
+/// The normal form of w · s_wall for a normal form w, in one pass over the word. One letter is inserted or removed.
+/// Source: du Cloux, Un algorithme de forme normale pour les groupes de Coxeter (1990).
+[[nodiscard]] Word multiply(const Automaton& automaton, const Word& word, int wall);
+/// The normal form of the element of any word. Two paths lead to the same copy exactly when their normal forms are equal.
 [[nodiscard]] Word normal_form(const Automaton& automaton, const Word& word);
-/// Bit i: |g·s_i| < |g| for the element g of a normal form: the copy across wall i is nearer (first 64 walls).
+/// Bit i (below 64): |g·s_i| < |g| for the element g of a normal form, so the copy across wall i is nearer to the room.
 [[nodiscard]] std::uint64_t descents(const Automaton& automaton, const Word& word);
 
 }  // namespace orbc::cover

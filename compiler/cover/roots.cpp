@@ -1,9 +1,11 @@
-// Positive roots of a corner of order k, by angle: position p has the coefficients sin((k−1−p)θ)/sinθ and sin(pθ)/sinθ, θ = π/k. The
-// reflection in the first wall takes p to k − p, in the second to k − 2 − p: no number is needed.
-// A third wall keeps such a root minimal only in triangles, and only near the simple roots (the product with its simple root is concave in
-// p). From these seeds the roots of three walls follow by rising: s·β is minimal exactly when −1 < B(β, α_s) < 0 (Brink–Howlett). Where |B|
-// < 1 the two reflections generate a finite dihedral group, so B = cos(jπ/m) with m at most the largest order K: the values are 0, at least
-// sin(π/2K), at most −1, or at least −cos(π/K). A bounded error much smaller than these gaps decides exactly.
+// The positive roots of a corner of order k, in the order of their angles: position p has the coefficients sin((k−1−p)θ)/sinθ and
+// sin(pθ)/sinθ with θ = π/k. The reflection in the first wall maps p to k − p, the reflection in the second to k − 2 − p.
+//
+// The image of such a root under a third wall is minimal only in triangles, and only near the simple roots (the product with the simple
+// root of the third wall is concave in p). From these seeds the roots of three walls follow by increasing depth: s·β is minimal exactly
+// when −1 < B(β, α_s) < 0 (Brink–Howlett). Where |B| < 1 the two reflections generate a finite dihedral group, so B = cos(jπ/m) with m at
+// most the largest order K. So B is 0, or at least sin(π/2K) in size, and it is at most −1 or at least −cos(π/K). An error that is much
+// smaller than these gaps decides exactly.
 #include "compiler/cover/roots.h"
 
 #include <algorithm>
@@ -18,8 +20,8 @@ namespace {
 
 using Real = long double;
 constexpr Real kUlp = std::numeric_limits<Real>::epsilon();
-constexpr Real kSeedError = 16 * kUlp;  // relative; quotient of two library sines of arguments with two roundings each
-constexpr Real kMatchRadius = 1e-6;     // much larger than any error bound, much smaller than the distance of two roots of one depth
+constexpr Real kSeedError = 16 * kUlp;  // relative: a quotient of two library sines, whose arguments have two roundings each
+constexpr Real kMatchRadius = 1e-6;     // far above any error bound, far below the distance of two roots of one depth
 
 }  // namespace
 
@@ -44,8 +46,8 @@ MinimalRoots::MinimalRoots(const notation::Orbifold& orbifold) {
     corner.offset = offset;
     offset += corner.order - 2;
   }
-  first_triple_ = offset;
-  if (corners_.size() == 3) find_triples();
+  first_triangle_root_ = offset;
+  if (corners_.size() == 3) find_triangle_roots();
 }
 
 int MinimalRoots::corner_between(int wall, int other) const {
@@ -72,7 +74,7 @@ MinimalRoots::Root MinimalRoots::root_at(int corner, int position) const {
   return position == 0 ? c.first : position == c.order - 1 ? c.second : c.offset + position - 1;
 }
 
-MinimalRoots::Root MinimalRoots::turned(int corner, int wall, int position) const {
+MinimalRoots::Root MinimalRoots::image_in_corner(int corner, int wall, int position) const {
   const Corner& c = corners_[static_cast<std::size_t>(corner)];
   const int image = wall == c.first ? c.order - position : c.order - 2 - position;
   return image < 0 || image == c.order ? kNegative : root_at(corner, image);
@@ -84,23 +86,26 @@ MinimalRoots::Root MinimalRoots::image(int wall, Root root) const {
     const int corner = corner_between(wall, root);
     if (corner < 0) return kNotMinimal;
     const Corner& c = corners_[static_cast<std::size_t>(corner)];
-    return turned(corner, wall, root == c.first ? 0 : c.order - 1);
+    return image_in_corner(corner, wall, root == c.first ? 0 : c.order - 1);
   }
-  if (root >= first_triple_) return triples_[static_cast<std::size_t>(root - first_triple_)].images[static_cast<std::size_t>(wall)];
+  if (root >= first_triangle_root_)
+    return triangle_roots_[static_cast<std::size_t>(root - first_triangle_root_)].images[static_cast<std::size_t>(wall)];
   const int corner = corner_of(root);
   const Corner& c = corners_[static_cast<std::size_t>(corner)];
-  if (wall == c.first || wall == c.second) return turned(corner, wall, root - c.offset + 1);
-  if (keeps(wall, c)) return root;
-  const auto found = raised_.find({root, wall});
-  return found == raised_.end() ? kNotMinimal : found->second;
+  if (wall == c.first || wall == c.second) return image_in_corner(corner, wall, root - c.offset + 1);
+  if (commutes_with(wall, c)) return root;
+  const auto found = raised_images_.find({root, wall});
+  return found == raised_images_.end() ? kNotMinimal : found->second;
 }
 
-bool MinimalRoots::keeps(int wall, const Corner& corner) const { return order(wall, corner.first) == 2 && order(wall, corner.second) == 2; }
+bool MinimalRoots::commutes_with(int wall, const Corner& corner) const {
+  return order(wall, corner.first) == 2 && order(wall, corner.second) == 2;
+}
 
-/// The roots of three walls, found by depth.
-class MinimalRoots::TripleFinder {
+/// Finds the roots of three walls by depth.
+class MinimalRoots::TriangleRootFinder {
  public:
-  explicit TripleFinder(MinimalRoots& roots) : roots_(roots) {
+  explicit TriangleRootFinder(MinimalRoots& roots) : roots_(roots) {
     int largest = 2;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -120,10 +125,11 @@ class MinimalRoots::TripleFinder {
     for (int depth = 2; depth <= last_seed || !level.empty(); ++depth) {
       const std::vector<Root>& dihedral = seeds[depth];
       level.insert(level.end(), dihedral.begin(), dihedral.end());
-      const std::size_t before = roots_.triples_.size();
+      const std::size_t before = roots_.triangle_roots_.size();
       for (const Root root : level) rise(root, depth);
       level.clear();
-      for (std::size_t i = before; i < roots_.triples_.size(); ++i) level.push_back(roots_.first_triple_ + static_cast<Root>(i));
+      for (std::size_t i = before; i < roots_.triangle_roots_.size(); ++i)
+        level.push_back(roots_.first_triangle_root_ + static_cast<Root>(i));
     }
   }
 
@@ -132,18 +138,18 @@ class MinimalRoots::TripleFinder {
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-  // The coefficients of any root of two or three walls, with a bound of their absolute error.
-  Triple described(Root root) const {
-    if (root >= roots_.first_triple_) return roots_.triples_[index(root - roots_.first_triple_)];
+  // The coefficients of a root of two or three walls, with a bound of their absolute error.
+  TriangleRoot expanded(Root root) const {
+    if (root >= roots_.first_triangle_root_) return roots_.triangle_roots_[index(root - roots_.first_triangle_root_)];
     const Corner& c = roots_.corners_[index(roots_.corner_of(root))];
     return dihedral(c, root - c.offset + 1);
   }
 
-  static Triple dihedral(const Corner& c, int position) {
+  static TriangleRoot dihedral(const Corner& c, int position) {
     const Real theta = std::numbers::pi_v<Real> / c.order;
-    // The smaller of the two equal sines' arguments keeps the error relative near π.
+    // Of the two arguments with equal sines, the smaller one has the smaller relative error.
     const auto sine = [&](int p) { return std::sin(std::min(p, c.order - p) * theta) / std::sin(theta); };
-    Triple root;
+    TriangleRoot root;
     root.coefficients[index(c.first)] = sine(c.order - 1 - position);
     root.coefficients[index(c.second)] = sine(position);
     root.error = kSeedError * (root.coefficients[0] + root.coefficients[1] + root.coefficients[2]);
@@ -151,39 +157,39 @@ class MinimalRoots::TripleFinder {
     return root;
   }
 
-  Real value(const Triple& root, int wall) const {
+  Real value(const TriangleRoot& root, int wall) const {
     Real sum = 0;
     for (int i = 0; i < 3; ++i) sum += form_[index(wall)][index(i)] * root.coefficients[index(i)];
     return sum;
   }
 
-  Real value_error(const Triple& root) const {
+  Real value_error(const TriangleRoot& root) const {
     return 3 * root.error + 4 * kUlp * (root.coefficients[0] + root.coefficients[1] + root.coefficients[2]);
   }
 
-  Product product(const Triple& root, int wall) const {
+  Product product(const TriangleRoot& root, int wall) const {
     ORBC_CHECK(value_error(root), <, std::min(zero_gap_, one_gap_));
     const Real b = value(root, wall);
     return b < -1 + one_gap_ ? Product::far : b < -zero_gap_ ? Product::below : b < zero_gap_ ? Product::zero : Product::above;
   }
 
-  Triple reflected(const Triple& root, int wall) const {
-    Triple image = root;
+  TriangleRoot reflected(const TriangleRoot& root, int wall) const {
+    TriangleRoot image = root;
     image.coefficients[index(wall)] -= 2 * value(root, wall);
     image.error = root.error + 2 * value_error(root) + kUlp * std::abs(image.coefficients[index(wall)]);
     return image;
   }
 
-  // The roots of corners that a third wall may raise, from both ends of each corner until the first that it does not: B is convex in
-  // between.
+  // The roots of corners whose images under the third wall may be minimal: from both ends of each corner up to the first whose image is
+  // not. B is convex between them.
   std::map<int, std::vector<Root>> seeds_by_depth() const {
     std::map<int, std::vector<Root>> seeds;
     for (int corner = 0; corner < 3; ++corner) {
       const Corner& c = roots_.corners_[index(corner)];
       const int third = 3 - c.first - c.second;
-      if (roots_.keeps(third, c)) continue;
+      if (roots_.commutes_with(third, c)) continue;
       const auto take = [&](int position) {
-        const Triple root = dihedral(c, position);
+        const TriangleRoot root = dihedral(c, position);
         if (product(root, third) == Product::far) return false;
         seeds[root.depth].push_back(roots_.root_at(corner, position));
         return true;
@@ -196,46 +202,47 @@ class MinimalRoots::TripleFinder {
   }
 
   void set_image(Root root, int wall, Root image) {
-    if (root >= roots_.first_triple_) roots_.triples_[index(root - roots_.first_triple_)].images[index(wall)] = image;
-    else roots_.raised_[{root, wall}] = image;
+    if (root >= roots_.first_triangle_root_) roots_.triangle_roots_[index(root - roots_.first_triangle_root_)].images[index(wall)] = image;
+    else roots_.raised_images_[{root, wall}] = image;
   }
 
   void rise(Root root, int depth) {
-    const Triple described_root = described(root);
+    const TriangleRoot expanded_root = expanded(root);
     for (int wall = 0; wall < 3; ++wall) {
-      if (root < roots_.first_triple_ && described_root.coefficients[index(wall)] > 0) continue;  // inside its own corner
-      const Product b = product(described_root, wall);
+      if (root < roots_.first_triangle_root_ && expanded_root.coefficients[index(wall)] > 0) continue;  // inside its own corner
+      const Product b = product(expanded_root, wall);
       if (b == Product::zero) set_image(root, wall, root);
       if (b != Product::below || roots_.image(wall, root) != kNotMinimal) continue;
-      Triple raised = reflected(described_root, wall);
+      TriangleRoot raised = reflected(expanded_root, wall);
       raised.depth = depth + 1;
       raised.images = {kNotMinimal, kNotMinimal, kNotMinimal};
-      Root id = known(raised, wall);
+      Root id = find_known(raised, wall);
       if (id == kNotMinimal) {
-        id = roots_.first_triple_ + static_cast<Root>(roots_.triples_.size());
-        roots_.triples_.push_back(raised);
+        id = roots_.first_triangle_root_ + static_cast<Root>(roots_.triangle_roots_.size());
+        roots_.triangle_roots_.push_back(raised);
       }
       set_image(root, wall, id);
       set_image(id, wall, root);
     }
   }
 
-  // The number of a root that was reached before by another wall t: then t lowers it to a root of the depth below, which is known to exist.
-  Root known(const Triple& root, int from) const {
+  // The number of a root that was found before by another wall t. Then the reflection in t maps it to a root of the depth below, which
+  // exists already. kNotMinimal when the root is new.
+  Root find_known(const TriangleRoot& root, int from) const {
     for (int wall = 0; wall < 3; ++wall) {
       if (wall == from || product(root, wall) != Product::above) continue;
-      const Root lower = identified(reflected(root, wall), root.depth - 1);
+      const Root lower = find_equal(reflected(root, wall), root.depth - 1);
       const Root image = roots_.image(wall, lower);
       if (image != kNotMinimal) return image;
     }
     return kNotMinimal;
   }
 
-  // The one root of this depth that the coefficients can mean. It exists, so being the only one within the radius identifies it.
-  Root identified(const Triple& root, int depth) const {
+  // The one root of this depth that has these coefficients. It exists, so the only root within the radius is it.
+  Root find_equal(const TriangleRoot& root, int depth) const {
     std::vector<Root> candidates;
-    for (std::size_t i = 0; i < roots_.triples_.size(); ++i)
-      if (roots_.triples_[i].depth == depth) candidates.push_back(roots_.first_triple_ + static_cast<Root>(i));
+    for (std::size_t i = 0; i < roots_.triangle_roots_.size(); ++i)
+      if (roots_.triangle_roots_[i].depth == depth) candidates.push_back(roots_.first_triangle_root_ + static_cast<Root>(i));
     for (int corner = 0; corner < 3; ++corner) {
       const int order = roots_.corners_[index(corner)].order;
       if (depth >= 2 && depth - 1 <= order - depth) candidates.push_back(roots_.root_at(corner, depth - 1));
@@ -245,10 +252,13 @@ class MinimalRoots::TripleFinder {
     Root found = kNotMinimal;
     int matches = 0;
     for (const Root candidate : candidates) {
-      const Triple other = described(candidate);
+      const TriangleRoot other = expanded(candidate);
       Real gap = 0;
       for (std::size_t i = 0; i < 3; ++i) gap = std::max(gap, std::abs(other.coefficients[i] - root.coefficients[i]));
-      if (gap < kMatchRadius) found = candidate, ++matches;
+      if (gap < kMatchRadius) {
+        found = candidate;
+        ++matches;
+      }
     }
     ORBC_CHECK(matches, ==, 1);
     return found;
@@ -259,6 +269,6 @@ class MinimalRoots::TripleFinder {
   Real zero_gap_ = 0, one_gap_ = 0;
 };
 
-void MinimalRoots::find_triples() { TripleFinder(*this).find(); }
+void MinimalRoots::find_triangle_roots() { TriangleRootFinder(*this).find(); }
 
 }  // namespace orbc::cover

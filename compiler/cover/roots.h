@@ -9,18 +9,18 @@
 
 namespace orbc::cover {
 
-/// The minimal roots of the reflection group of a room: the finitely many positive roots that dominate no other one. They decide, without
-/// any number, whether a word of mirrors is shortest and whether it is the first of the shortest ones.
-/// Walls from 0; the simple root of wall i has the number i; neighbouring walls i−1 and i meet in corner i.
-/// Exact:  dihedral roots are integers (corner, position); the few roots that involve three walls of a triangle are found with bounded
+/// The minimal roots of the reflection group of a room: the finitely many positive roots that dominate no other one. They decide whether a
+/// word is a shortest one of its element, and whether it is the first of these.
+/// In:     walls count from 0; the simple root of wall i has the number i; walls i−1 and i meet in corner i.
+/// Exact:  roots of two walls are integers (corner, position). The few roots of all three walls of a triangle are computed with bounded
 ///         errors, and every decision is between values that lie further apart than the bound (checked).
 /// Source: Brink, Howlett, A finiteness property and an automatic structure for Coxeter groups (1993); Casselman, Computation in Coxeter
 ///         groups I (2002).
 class MinimalRoots {
  public:
   using Root = std::int32_t;
-  static constexpr Root kNegative = -1;    ///< the image is no positive root: the root was that of the wall itself
-  static constexpr Root kNotMinimal = -2;  ///< the image is positive and will stay so along any reduced word
+  static constexpr Root kNegative = -1;    ///< the image is a negative root: the root was that of the wall itself
+  static constexpr Root kNotMinimal = -2;  ///< the image is positive and stays so along any reduced word
 
   /// In: a good orbifold with integer corners, at most 256 of them.
   explicit MinimalRoots(const notation::Orbifold& orbifold);
@@ -31,34 +31,37 @@ class MinimalRoots {
   /// The k of the angle π/k between two walls; 0 when they do not meet (k = ∞).
   [[nodiscard]] int order(int wall, int other) const;
   /// How many minimal roots there are.
-  [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(first_triple_) + static_cast<std::int64_t>(triples_.size()); }
+  [[nodiscard]] std::int64_t count() const {
+    return static_cast<std::int64_t>(first_triangle_root_) + static_cast<std::int64_t>(triangle_roots_.size());
+  }
 
  private:
-  // Corner c joins walls `first` and `second`; its roots by angle are the positions 0 (simple root of `first`) … order−1 (of `second`).
+  // A corner joins walls `first` and `second`. Its roots in the order of their angles have the positions 0 (simple root of `first`) to
+  // order−1 (simple root of `second`).
   struct Corner {
     int first = 0, second = 0, order = 0;
-    Root offset = 0;  // number of position 1
+    Root offset = 0;  // the number of the root at position 1
   };
-  struct Triple {
+  struct TriangleRoot {
     std::array<long double, 3> coefficients{};
     long double error = 0;
     int depth = 0;
     std::array<Root, 3> images{kNotMinimal, kNotMinimal, kNotMinimal};
   };
-  class TripleFinder;
+  class TriangleRootFinder;
 
-  void find_triples();
+  void find_triangle_roots();
   [[nodiscard]] int corner_between(int wall, int other) const;
-  [[nodiscard]] bool keeps(int wall, const Corner& corner) const;  // at right angles to both walls of the corner
+  [[nodiscard]] bool commutes_with(int wall, const Corner& corner) const;  // it is perpendicular to both walls of the corner
   [[nodiscard]] int corner_of(Root root) const;
   [[nodiscard]] Root root_at(int corner, int position) const;
-  [[nodiscard]] Root turned(int corner, int wall, int position) const;
+  [[nodiscard]] Root image_in_corner(int corner, int wall, int position) const;
 
   int walls_ = 0;
   std::vector<Corner> corners_;
-  Root first_triple_ = 0;
-  std::vector<Triple> triples_;                  // roots that involve all three walls of a triangle
-  std::map<std::pair<Root, int>, Root> raised_;  // (dihedral root, third wall) → its image, where that is minimal
+  Root first_triangle_root_ = 0;
+  std::vector<TriangleRoot> triangle_roots_;            // roots that involve all three walls of a triangle
+  std::map<std::pair<Root, int>, Root> raised_images_;  // (root of two walls, third wall) → its image, where that is minimal
 };
 
 }  // namespace orbc::cover

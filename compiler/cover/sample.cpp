@@ -1,5 +1,6 @@
-// Systematic sampling in the order of distance, with a chance proportional to a guess of what is drawn: the triangles of the parts that a
-// wedge meets. Where the guess is right but for a factor that changes slowly with the distance, so is the estimate.
+// Systematic sampling in the order of distance (Cochran, Sampling techniques, 1977, ch. 8 and 9A), with probabilities proportional to an
+// estimate of the visible triangles: those of the parts that the wedge of a copy meets. The sum over all copies is accurate when the
+// estimate is right up to a factor that changes slowly with the distance.
 #include "compiler/cover/sample.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <tuple>
 
 #include "compiler/base/elementary.h"
+#include "compiler/geometry/circle.h"
 
 namespace orbc::cover {
 namespace {
@@ -16,32 +18,25 @@ namespace {
 using geometry::Ambient;
 using geometry::Space;
 
-/// A circle on the floor around a part, and how many triangles are in it.
+/// A part of a model: a circle on the floor around it, and its triangles.
 struct Disk {
-  geometry::Point centre;
-  double radius = 0, triangles = 0;
-  int wall = -1;
+  geometry::Circle circle;
+  double triangles = 0;
+  int wall = -1;  // of panels on walls
 };
 
 Disk disk_of(Space space, const place::PlacedMesh& mesh) {
-  Disk disk;
-  disk.triangles = static_cast<double>(mesh.triangles.size());
-  disk.wall = mesh.kind == place::PartKind::wall ? mesh.wall : -1;
-  Ambient sum{0, 0, 0};
-  for (const geometry::Point& p : mesh.floor) sum = sum + p;
-  if (!mesh.floor.empty() && (space != Space::spherical || sum.w * sum.w + sum.x * sum.x + sum.y * sum.y > 1e-6))
-    disk.centre = geometry::normalised_point(space, sum);
-  for (const geometry::Point& p : mesh.floor) disk.radius = std::max(disk.radius, geometry::distance(space, disk.centre, p));
-  return disk;
+  return {geometry::bounding_circle(space, mesh.floor), static_cast<double>(mesh.triangles.size()),
+          mesh.kind == place::PartKind::wall ? mesh.wall : -1};
 }
 
-double angle_between(const Bearing& a, const Bearing& b) { return math::atan2(turn(a, b), a.x * b.x + a.y * b.y); }
+double angle_between(const Bearing& a, const Bearing& b) { return math::atan2(cross(a, b), a.x * b.x + a.y * b.y); }
 
-/// The share of the bearings of a disk that lie in the wedge.
-double share_in(const Wedge& wedge, Space space, const Ambient& seen, double radius) {
-  const double rho = math::hypot(seen.x, seen.y), across = geometry::sin_k(space, std::min(radius, std::numbers::pi / 2));
+/// The share of the bearings of a circle that lie in the wedge. In: its centre in eye coordinates.
+double share_in(const Wedge& wedge, Space space, const Ambient& centre, double radius) {
+  const double rho = math::hypot(centre.x, centre.y), across = geometry::sin_k(space, std::min(radius, std::numbers::pi / 2));
   if (rho <= across || rho < 1e-12) return std::min(1.0, angle_between(wedge.from, wedge.to) / std::numbers::pi);
-  const Bearing middle{seen.x / rho, seen.y / rho};
+  const Bearing middle{centre.x / rho, centre.y / rho};
   const double half = math::asin(across / rho), from = -angle_between(wedge.from, middle), to = angle_between(middle, wedge.to);
   const double shared = std::min(half, to) - std::max(-half, from);
   return half > 0 ? std::clamp(shared / (2 * half), 0.0, 1.0) : 1;
@@ -53,7 +48,7 @@ struct Model {
 };
 
 std::vector<Model> models_of(const Contents& contents, Space space) {
-  std::map<const place::PlacedMesh*, Disk> known;   // looked up only
+  std::map<const place::PlacedMesh*, Disk> known;  // never iterated: its order depends on addresses
   std::vector<Model> models;
   for (const auto& meshes : contents.models) {
     Model& model = models.emplace_back();
@@ -67,10 +62,30 @@ std::vector<Model> models_of(const Contents& contents, Space space) {
   return models;
 }
 
-struct Guess {
-  double distance = 0, triangles = 0;
+/// What a copy is expected to contribute.
+struct ImportanceEstimate {
+  double distance = 0;   // from the eye to the centre of the copy, along the ray
+  double triangles = 0;  // visible ones
   std::size_t copy = 0;
 };
+
+constexpr double kVisibleShareAtLeast = 0.02;  // of a model's triangles; keeps weights bounded where the estimate is wrong
+
+ImportanceEstimate estimate_of(const Copy& copy, const Model& model, const geometry::Isometry& eye_from_cover, std::size_t index) {
+  const auto eye_from_copy = eye_from_cover * copy.cover_from_room;
+  const Space space = eye_from_copy.space;
+  const Ambient centre = eye_from_copy * geometry::Point();
+  const double r = geometry::arc_k(space, centre.w, math::hypot(centre.x, centre.y));
+  ImportanceEstimate estimate{r, kVisibleShareAtLeast * model.triangles + 1, index};
+  if (copy.sheet > 0) estimate.distance = copy.sheet * std::numbers::pi + (copy.sheet % 2 == 1 ? std::numbers::pi - r : r);
+  for (const Disk& disk : model.disks) {
+    if (faces_eye(copy, disk.wall)) continue;
+    Ambient middle = eye_from_copy * disk.circle.centre;
+    if (copy.sheet % 2 == 1) middle = -1.0 * middle;
+    estimate.triangles += disk.triangles * (copy.wedge ? share_in(*copy.wedge, space, middle, disk.circle.radius) : 1);
+  }
+  return estimate;
+}
 
 }  // namespace
 
@@ -80,50 +95,41 @@ Contents contents_of(const place::PlacedRoom& room) {
   return contents;
 }
 
-std::vector<Sample> sample_of(const std::vector<Copy>& copies, const Contents& contents, const place::Eye& eye, std::size_t most) {
+std::vector<Sample> stratified_sample(const std::vector<Copy>& copies, const Contents& contents, const place::Eye& eye,
+                                      std::size_t max_samples) {
   std::vector<Sample> samples;
-  if (copies.size() <= most) {
+  if (copies.size() <= max_samples) {
     for (std::size_t i = 0; i < copies.size(); ++i) samples.push_back({i, 1});
     return samples;
   }
-  const Space space = contents.room->room.space;
   const auto eye_from_cover = inverse(eye.room_from_eye);
-  const std::vector<Model> models = models_of(contents, space);
-  std::vector<Guess> guesses;
-  guesses.reserve(copies.size());
-  for (std::size_t i = 0; i < copies.size(); ++i) {
-    const Copy& copy = copies[i];
-    const auto eye_from_copy = eye_from_cover * copy.cover_from_room;
-    const Ambient centre = eye_from_copy * geometry::Point();
-    const Model& model = models[contents.model_of_copy.empty() ? 0 : contents.model_of_copy[i]];
-    Guess guess{geometry::arc_k(space, centre.w, math::hypot(centre.x, centre.y)), 0.02 * model.triangles + 1, i};
-    if (copy.sheet > 0)
-      guess.distance = copy.sheet * std::numbers::pi + (copy.sheet % 2 == 1 ? std::numbers::pi - guess.distance : guess.distance);
-    for (const Disk& disk : model.disks) {
-      if (disk.wall >= 0 && disk.wall < 64 && ((copy.nearer_walls >> disk.wall) & 1)) continue;
-      Ambient seen = eye_from_copy * disk.centre;
-      if (copy.sheet % 2 == 1) seen = -1.0 * seen;
-      guess.triangles += disk.triangles * (copy.wedge ? share_in(*copy.wedge, space, seen, disk.radius) : 1);
-    }
-    guesses.push_back(guess);
-  }
-  std::sort(guesses.begin(), guesses.end(),
-            [](const Guess& a, const Guess& b) { return std::tie(a.distance, a.copy) < std::tie(b.distance, b.copy); });
-  const std::size_t nearest = most / 4;
+  const std::vector<Model> models = models_of(contents, contents.room->room.space);
+  std::vector<ImportanceEstimate> estimates;
+  estimates.reserve(copies.size());
+  for (std::size_t i = 0; i < copies.size(); ++i)
+    estimates.push_back(estimate_of(copies[i], models[contents.model_of_copy.empty() ? 0 : contents.model_of_copy[i]], eye_from_cover, i));
+  std::sort(estimates.begin(), estimates.end(), [](const ImportanceEstimate& a, const ImportanceEstimate& b) {
+    return std::tie(a.distance, a.copy) < std::tie(b.distance, b.copy);
+  });
+  const std::size_t nearest = max_samples / 4;
+  for (std::size_t i = 0; i < nearest; ++i) samples.push_back({estimates[i].copy, 1});
   double all = 0;
-  for (std::size_t i = nearest; i < guesses.size(); ++i) all += guesses[i].triangles;
-  for (std::size_t i = 0; i < nearest; ++i) samples.push_back({guesses[i].copy, 1});
-  // A step for every sample; what is longer than a step is picked for certain and stands for itself alone.
-  const double step = all / static_cast<double>(most - nearest);
-  double along = step / 2;
-  for (std::size_t i = nearest; i < guesses.size(); ++i) {
-    const double t = guesses[i].triangles;
-    if (t >= step) {
-      samples.push_back({guesses[i].copy, 1});
+  for (std::size_t i = nearest; i < estimates.size(); ++i) all += estimates[i].triangles;
+  // The triangles of all further copies form a line that is divided into equal steps, with one sample in the middle of each. A copy that is
+  // longer than a step is always sampled, with weight 1.
+  const double step = all / static_cast<double>(max_samples - nearest);
+  double to_next = step / 2;
+  for (std::size_t i = nearest; i < estimates.size(); ++i) {
+    const double length = estimates[i].triangles;
+    if (length >= step) {
+      samples.push_back({estimates[i].copy, 1});
       continue;
     }
-    if (along < t) samples.push_back({guesses[i].copy, step / t}), along += step;
-    along -= t;
+    if (to_next < length) {
+      samples.push_back({estimates[i].copy, step / length});
+      to_next += step;
+    }
+    to_next -= length;
   }
   return samples;
 }

@@ -9,25 +9,27 @@
 
 namespace orbc::cover {
 
-/// A copy that is looked at instead of many.
+/// A copy that represents `weight` copies, itself included.
 struct Sample {
-  std::size_t copy = 0;
-  double stands_for = 1;            ///< itself included
+  std::size_t copy = 0;  ///< index
+  double weight = 1;
 };
 
-/// What copies are drawn from: a room, and which meshes stand for its parts.
+/// What copies are drawn from: a room, and models of it. A model is a list of meshes, one for each part that it draws.
 struct Contents {
   const place::PlacedRoom* room = nullptr;
   std::vector<std::vector<const place::PlacedMesh*>> models;
-  std::vector<std::uint32_t> model_of_copy;   ///< empty: all are drawn from the first
+  std::vector<std::uint32_t> model_of_copy;  ///< empty: all copies are drawn from the first model
 };
-/// Every copy with all parts of the room as they are.
+/// Every copy is drawn with all parts of the room.
 [[nodiscard]] Contents contents_of(const place::PlacedRoom& room);
 
-/// Picks about `most` copies that stand for all: a sum over all copies is about Σ stands_for · (value of the sample).
-/// Makes:       the copies nearest to the eye one by one (they are bent the most), of the others some at every distance; what shows more
-///              triangles of its model is picked sooner. The same for the same copies: nothing is drawn by lot.
-[[nodiscard]] std::vector<Sample> sample_of(const std::vector<Copy>& copies, const Contents& contents, const place::Eye& eye,
-                                            std::size_t most);
+/// Samples about `max_samples` copies, so that a sum over all copies is estimated by Σ weight · (value of the sampled copy).
+/// In:      max_samples ≥ 1.
+/// Makes:   the quarter of the samples that is nearest to the eye one by one (bending splits these most). Of the other copies a systematic
+///          sample in the order of distance, with a probability proportional to the estimated number of visible triangles. The same input
+///          gives the same sample: no random numbers are used.
+[[nodiscard]] std::vector<Sample> stratified_sample(const std::vector<Copy>& copies, const Contents& contents, const place::Eye& eye,
+                                                    std::size_t max_samples);
 
 }  // namespace orbc::cover

@@ -18,31 +18,32 @@ const place::PlacedMirror* mirror_of(const place::PlacedRoom& room, int surface)
 
 bool has_storeys(const place::PlacedRoom& room) { return mirror_of(room, -1) || mirror_of(room, -2); }
 
-std::vector<WeightedStorey> storeys_of(const place::PlacedRoom& room, int max_bounces) {
+std::vector<WeightedStorey> storeys_within(const place::PlacedRoom& room, int max_bounces) {
   std::vector<WeightedStorey> storeys(1);
   const place::PlacedMirror *floor = mirror_of(room, -1), *ceiling = mirror_of(room, -2);
   scene::Color up{1, 1, 1}, down{1, 1, 1};
   bool goes_up = true, goes_down = true;
   for (int n = 1; n <= max_bounces && (goes_up || goes_down); ++n) {
-    // Going up the ceiling is met first, going down the floor.
+    // The first mirror upwards is the ceiling, the first one downwards the floor.
     const place::PlacedMirror *above = n % 2 == 1 ? ceiling : floor, *below = n % 2 == 1 ? floor : ceiling;
-    goes_up = goes_up && above, goes_down = goes_down && below;
+    goes_up = goes_up && above;
+    goes_down = goes_down && below;
     const double sign = n % 2 == 1 ? -1 : 1;
     if (goes_up) {
-      up = up * (above->reflectance * above->tint);
+      up = up * above->throughput;
       storeys.push_back({{n, sign, (n % 2 == 1 ? n + 1 : n) * room.height}, up});
     }
     if (goes_down) {
-      down = down * (below->reflectance * below->tint);
+      down = down * below->throughput;
       storeys.push_back({{-n, sign, (n % 2 == 1 ? -n + 1 : -n) * room.height}, down});
     }
   }
   return storeys;
 }
 
-Result<std::vector<Copy>> stacked(const std::vector<Copy>& copies, const place::PlacedRoom& room, const scene::CoverSpec& spec,
-                                  std::uint64_t max_copies) {
-  const std::vector<WeightedStorey> storeys = storeys_of(room, std::max(0, spec.max_bounces));
+Result<std::vector<Copy>> with_storeys(const std::vector<Copy>& copies, const place::PlacedRoom& room, const scene::CoverSpec& spec,
+                                       std::uint64_t max_copies) {
+  const std::vector<WeightedStorey> storeys = storeys_within(room, std::max(0, spec.max_bounces));
   std::vector<std::vector<Copy>> by_bounces(static_cast<std::size_t>(std::max(0, spec.max_bounces)) + 1);
   const auto bounces_of = [](const Copy& copy, const WeightedStorey& s) { return copy.bounces + std::abs(s.storey.number); };
   std::vector<std::uint64_t> counts(by_bounces.size());

@@ -8,22 +8,24 @@
 
 namespace orbc::cover {
 
-/// One storey that mirrors on floor and ceiling make, with the weight of the mirrors on the way to it.
+/// A storey with the product of the throughputs of the mirrors between it and the room.
 struct WeightedStorey {
   Storey storey;
   scene::Color weight{1, 1, 1};
 };
 
+/// Whether floor or ceiling is a mirror.
 [[nodiscard]] bool has_storeys(const place::PlacedRoom& room);
 
-/// All storeys within `max_bounces` mirrors: 0, 1, −1, 2, −2, …; one alone when neither floor nor ceiling is a mirror.
-/// Formula: storey n even: z ↦ z + nh; odd: z ↦ (n + 1)h − z. Up through the ceiling first, then floor and ceiling in turn.
-[[nodiscard]] std::vector<WeightedStorey> storeys_of(const place::PlacedRoom& room, int max_bounces);
+/// All storeys within `max_bounces` mirrors, in the order 0, 1, −1, 2, −2, …; storey 0 alone when neither floor nor ceiling is a mirror.
+/// Formula: storey n maps the height z to z + nh for even n, and to (n + 1)h − z for odd n, where h is the height of the room. Paths
+///          upwards pass the ceiling first, then floor and ceiling in turn.
+[[nodiscard]] std::vector<WeightedStorey> storeys_within(const place::PlacedRoom& room, int max_bounces);
 
-/// Puts every copy on every storey: bounces add up, weights multiply, whatever the order in which a ray meets walls, floors and ceilings.
-/// Makes:       copies by bounces; within one number of bounces the order given, then by storey.
+/// Puts every copy on every storey. Bounces add up and weights multiply, whatever the order in which a ray meets walls, floor and ceiling.
+/// Makes:       copies by bounces; for one number of bounces in the given order, then by storey. Limits of `spec` are applied.
 /// Diagnostics: cover.too-much beyond `max_copies`.
-[[nodiscard]] Result<std::vector<Copy>> stacked(const std::vector<Copy>& copies, const place::PlacedRoom& room,
-                                                const scene::CoverSpec& spec, std::uint64_t max_copies);
+[[nodiscard]] Result<std::vector<Copy>> with_storeys(const std::vector<Copy>& copies, const place::PlacedRoom& room,
+                                                     const scene::CoverSpec& spec, std::uint64_t max_copies);
 
 }  // namespace orbc::cover

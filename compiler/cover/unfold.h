@@ -15,13 +15,13 @@ struct UnfoldOptions {
   Progress progress;
 };
 
-/// Unfolds a room: every copy that the cut-offs leave; on S² also those seen around the sphere, sheet by sheet; with mirrors on floor or
-/// ceiling storey by storey. Rooms of orbifolds whose walls' mirrors are all alike go by the group, each copy once and whole; all others by
-/// the eye's beams (beam.h), cut to wedges.
-/// In:          any convex room; plain walls and mirrors that leave part of a wall are fine: what is behind them is hidden.
-/// Makes:       copies by bounces, then sheet, then word; the room itself first. Memory grows with the output only.
-/// Exact:       words and their number (no float decides); `min_pixels` is measured, of both roads alike (size.h). What lies behind a
-///              copy that it leaves out is left out or hidden by a panel in the mirror through which that copy is seen (driver/tail.h).
+/// Unfolds a room into all its copies within the cut-offs of `spec`: on S² sheet by sheet, with mirrors on floor or ceiling storey by
+/// storey. Where all mirrors on walls have one throughput and all angles are π/k, the group enumerates the copies, each once and as a
+/// whole; other rooms are unfolded along the eye's beams (beam.h), and copies have wedges.
+/// In:          any convex room. Walls may be plain, and mirrors may cover parts of walls: both hide what lies behind.
+/// Makes:       copies by bounces, then sheet, then word; the room itself first. Memory grows with the number of copies only.
+/// Exact:       words and their number (no floating-point number decides). `min_pixels` compares measured sizes (projected_size.h).
+///              What lies behind a copy below `min_pixels` is left out too, or hidden by a panel in its mirror (driver/tail.h).
 /// Diagnostics: cover.too-much beyond `max_copies`, with a max_bounces that fits.
 [[nodiscard]] Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
                                                const UnfoldOptions& options = {});

@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 
-#include "compiler/bend/detail.h"
+#include "compiler/bend/screen_size.h"
 
 namespace orbc::driver {
 namespace {
@@ -48,8 +48,8 @@ class Search {
     flat_panels_ = curtains(room_, no_look, bands_of(room_, opened.eye), true);
     for (const auto* panels : {&plain_panels_, &banded_panels_, &flat_panels_})
       for (const place::PlacedMesh& panel : *panels) panel_uv_[&panel].resize(panel.floor.size());
-    const bend::Detail detail(opened.eye, options);
-    const bend::Extent whole{{}, room_.room.circumradius, 0, room_.height};
+    const bend::ScreenSize detail(opened.eye, options);
+    const bend::BoundingCylinder whole{{}, room_.room.circumradius, 0, room_.height};
     for (const cover::Copy& copy : copies) sizes_.push_back(detail.smaller_side_px(copy, whole));
   }
 
@@ -72,7 +72,7 @@ class Search {
                               flat ? parts_of(flat_panels_, true) : parts_of(banded_panels_, false)};
       (void)hang(cut_offs, fitted.copies, curtains, models, model_of_copy);
     }
-    const auto bent = bend::bend(room_, models, model_of_copy, fitted.copies, opened_.eye, options_, executor_);
+    const auto bent = bend::bend(room_, {fitted.copies, models, model_of_copy}, opened_.eye, options_, executor_);
     least_ = bent ? bent->indices.size() / 3 : 0;
     if (!bent || least_ > budget_) return std::nullopt;
     fitted.triangles = least_;

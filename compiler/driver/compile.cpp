@@ -84,7 +84,7 @@ std::optional<Diagnostic> refusal(const Opened& opened, const CompileOptions& op
                       "leave out `glow`, or draw the scene with the tracer (`orbc trace`)");
   }
   if (options.bend.view == bend::View::disk &&
-      std::any_of(copies.begin(), copies.end(), [](const cover::Copy& c) { return !c.sills.empty(); })) {
+      std::any_of(copies.begin(), copies.end(), [](const cover::Copy& c) { return !c.height_bounds.empty(); })) {
     return make_error("cover.stacked-mirrors",
                       "the mirrors above each other that differ show their copies to one eye: --view disk has none",
                       "give them the same reflectance and tint, or leave out --view disk");
@@ -223,7 +223,7 @@ Result<std::unique_ptr<Ready>> get_ready(const Opened& opened, const Opened* lit
   if (const auto no = refusal(opened, options, *copies)) return *no;
   ready->copies = std::move(copies).value();
   ready->bending = options.bend;
-  ready->bending.colours_vary = options.bend.colours_vary || bake::needs_bake(opened.scene, *opened.room);
+  ready->bending.colors_vary = options.bend.colors_vary || bake::needs_bake(opened.scene, *opened.room);
   if (auto wrong = choose_detail(opened, options, *ready, executor, progress); !wrong.empty()) return wrong;
   if (purpose == Purpose::product && options.foresee && ready->tally.triangles > kMany)
     if (const auto planned = plan(opened, options, executor)) options.foresee(*planned);
@@ -239,7 +239,7 @@ Result<cover::Plan> estimated(const Opened& opened, const CompileOptions& option
       copies.push_back(ready.copies[i]);
       if (!ready.choice.model_of_copy.empty()) models.push_back(ready.choice.model_of_copy[i]);
     }
-    return bend::bend(ready.painted.atlas.room, ready.models, models, copies, opened.eye, ready.bending, executor);
+    return bend::bend(ready.painted.atlas.room, {copies, ready.models, models}, opened.eye, ready.bending, executor);
   };
   cover::Contents contents{opened.room.get(), {}, ready.choice.model_of_copy};
   for (const bend::Model& model : ready.models) {
@@ -310,7 +310,7 @@ Result<Made> make(const Opened& opened, const Opened* lit, const CompileOptions&
   if (may_exceed(options, ready))
     if (const auto planned = estimated(opened, options, ready, executor); !planned) return planned.error();
   if (options.by_object) part_objects(ready);
-  auto bent = bend::bend(ready.painted.atlas.room, ready.models, ready.choice.model_of_copy, ready.copies, opened.eye, ready.bending,
+  auto bent = bend::bend(ready.painted.atlas.room, {ready.copies, ready.models, ready.choice.model_of_copy}, opened.eye, ready.bending,
                          executor, progress);
   if (!bent) return bent.error();
   return Made{std::move(prepared).value(), std::move(bent).value()};

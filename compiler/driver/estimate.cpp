@@ -41,7 +41,7 @@ Result<cover::Plan> estimate(const cover::Contents& contents, const place::Eye& 
   cover::Plan plan = cover::plan_of(copies, *contents.room);
   const double fit = static_cast<double>(most_triangles) / std::max(1.0, mean_triangles(contents, copies.size()));
   const auto most = static_cast<std::size_t>(std::clamp<double>(fit, kFewest, kMost));
-  const std::vector<cover::Sample> samples = cover::sample_of(copies, contents, eye, most);
+  const std::vector<cover::Sample> samples = cover::stratified_sample(copies, contents, eye, most);
   std::vector<std::size_t> which;
   for (const cover::Sample& sample : samples) which.push_back(sample.copy);
   const auto bent = bend_some(which);
@@ -50,8 +50,8 @@ Result<cover::Plan> estimate(const cover::Contents& contents, const place::Eye& 
   for (std::size_t b = 0; b < bytes.size(); ++b) bytes[b] = cover::kBytesPerCopy * static_cast<double>(plan.copies_per_bounces[b]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const bend::BentRange& range = bent->copies[i];
-    const double v = samples[i].stands_for * static_cast<double>(range.vertex_count),
-                 t = samples[i].stands_for * static_cast<double>(range.index_count) / 3;
+    const double v = samples[i].weight * static_cast<double>(range.vertex_count),
+                 t = samples[i].weight * static_cast<double>(range.index_count) / 3;
     const auto bounces = static_cast<std::size_t>(copies[samples[i].copy].bounces);
     vertices[bounces] += v;
     triangles[bounces] += t;

@@ -1,7 +1,7 @@
 // Level of detail. A part is simplified in the conformal chart around it (twice the disk: lengths at its middle are true), and each level
 // is held to the part itself: both surfaces are divided into pieces of length h as the geodesic triangles that they are, and each piece's
 // corners are looked up on the other surface. In the chart lengths differ from true ones by the factor 1 + κ|p|²/4, and a piece from the
-// straight triangle on its corners by at most |P''|h²/6, |P''| ≤ 3|z| = 3|p|/2 (part_net.cpp); both are added.
+// straight triangle on its corners by at most |P''|h²/6, |P''| ≤ 3|z| = 3|p|/2 (edge_mesh.cpp); both are added.
 #include "compiler/driver/levels.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ constexpr double kWhole = std::numeric_limits<double>::infinity();
 /// The conformal chart around a part.
 class Chart {
  public:
-  Chart(Space space, const bend::Extent& extent)
+  Chart(Space space, const bend::BoundingCylinder& extent)
       : space_(space), chart_from_room_(inverse(geometry::translation_to(space, extent.centre))) {
     reach_ = space == Space::euclidean ? extent.radius : 2 * geometry::tan_k(space, extent.radius / 2);
   }
@@ -180,7 +180,7 @@ PlacedMesh stand_in(const PlacedMesh& part, const mesh::Decimated& coarse, const
 }
 
 std::vector<Level> levels_of(Space space, const PlacedMesh& part, const Executor& executor) {
-  const Chart chart(space, bend::extent_of(space, part));
+  const Chart chart(space, bend::bounding_cylinder(space, part));
   if (space == Space::hyperbolic && !(chart.reach() < 1.5)) return {};
   mesh::Mesh flat;
   for (std::size_t i = 0; i < part.floor.size(); ++i) flat.positions.push_back(chart(part.floor[i], part.z[i]));
@@ -254,9 +254,9 @@ Choice no_levels(const place::PlacedRoom& room, std::size_t copies) {
 
 Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const std::vector<cover::Copy>& copies, const place::Eye& eye,
                      const bend::BendOptions& options) {
-  const bend::Detail detail(eye, options);
-  std::vector<bend::Extent> extents;
-  for (const PlacedMesh& part : room.parts) extents.push_back(bend::extent_of(room.room.space, part));
+  const bend::ScreenSize detail(eye, options);
+  std::vector<bend::BoundingCylinder> extents;
+  for (const PlacedMesh& part : room.parts) extents.push_back(bend::bounding_cylinder(room.room.space, part));
   Gatherer gatherer;
   std::vector<std::uint16_t> model(room.parts.size(), 0);
   for (const cover::Copy& copy : copies) {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "compiler/base/executor.h"
-#include "compiler/bend/detail.h"
+#include "compiler/bend/screen_size.h"
 #include "compiler/cover/copy.h"
 #include "compiler/place/placed.h"
 

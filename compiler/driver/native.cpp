@@ -84,11 +84,11 @@ struct MirrorWeight {
 MirrorWeight weight_of(const place::PlacedRoom& room) {
   MirrorWeight mean;
   for (const place::PlacedMirror& m : room.mirrors) {
-    const scene::Color own = m.reflectance * m.tint;
-    mean.alike = mean.alike && own == room.mirrors[0].reflectance * room.mirrors[0].tint;
+    const scene::Color own = m.throughput;
+    mean.alike = mean.alike && own == room.mirrors[0].throughput;
     mean.color = mean.color + (1.0 / static_cast<double>(room.mirrors.size())) * own;
   }
-  if (mean.alike && !room.mirrors.empty()) mean.color = room.mirrors[0].reflectance * room.mirrors[0].tint;
+  if (mean.alike && !room.mirrors.empty()) mean.color = room.mirrors[0].throughput;
   return mean;
 }
 

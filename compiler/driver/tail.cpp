@@ -10,10 +10,11 @@
 #include <numbers>
 #include <utility>
 
-#include "compiler/bend/detail.h"
-#include "compiler/cover/size.h"
+#include "compiler/bend/screen_size.h"
+#include "compiler/cover/projected_size.h"
 #include "compiler/driver/prepared.h"
 #include "compiler/light/lighting.h"
+#include "compiler/notation/euler.h"
 #include "compiler/notation/growth.h"
 #include "compiler/render/radiance.h"
 
@@ -51,9 +52,8 @@ class Missing {
   Missing(const place::PlacedRoom& room, const BeyondOptions& options) : room_(room), options_(options) {
     for (std::size_t wall = 0; wall < room_.room.walls.size(); ++wall)
       mirrors_.push_back(room::reflection_in_wall(room_.room, static_cast<int>(wall)));
-    const auto& corners = room_.room.orbifold.corners;
-    const bool whole = std::all_of(corners.begin(), corners.end(), [](const Rational& k) { return denominator(k) == 1; });
-    if (room_.room.space == geometry::Space::spherical && whole) half_turn_ = notation::longest_length(room_.room.orbifold).value_or(1);
+    const bool tiles = notation::is_orbifold(room_.room.orbifold);
+    if (room_.room.space == geometry::Space::spherical && tiles) half_turn_ = notation::longest_length(room_.room.orbifold).value_or(1);
   }
 
   /// How many mirrors are passed before it; the number of all when there is none.
@@ -90,13 +90,13 @@ LeftOut left_out_below(const Opened& opened, double budget_px) {
   const scene::CoverSpec& spec = opened.scene.cover;
   if (!(spec.min_pixels > 0) && !(budget_px > 0)) return {};
   const place::PlacedRoom& room = *opened.room;
-  const bend::Extent whole{{}, room.room.circumradius, 0, room.height};
-  return
-      [spec, budget_px, whole, size = cover::CopySize(room, opened.eye), detail = bend::Detail(opened.eye, {})](const cover::Copy& copy) {
-        if (copy.bounces == 0) return false;
-        if (spec.min_pixels > 0 && cover::too_small(size.of(copy.cover_from_room), spec, kSlack)) return true;
-        return budget_px > 0 && detail.smaller_side_px(copy, whole) < budget_px * (1 + kSlack);
-      };
+  const bend::BoundingCylinder whole{{}, room.room.circumradius, 0, room.height};
+  return [spec, budget_px, whole, size = cover::ProjectedSize(room, opened.eye),
+          detail = bend::ScreenSize(opened.eye, {})](const cover::Copy& copy) {
+    if (copy.bounces == 0) return false;
+    if (spec.min_pixels > 0 && cover::is_culled(size.of(copy.cover_from_room), spec, kSlack)) return true;
+    return budget_px > 0 && detail.smaller_side_px(copy, whole) < budget_px * (1 + kSlack);
+  };
 }
 
 namespace {
@@ -296,7 +296,7 @@ std::vector<CutOff> CutOffs::of(const cover::Copy& copy) const {
   std::vector<CutOff> ends(room_.mirrors.size(), CutOff::no);
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const place::PlacedMirror& mirror = room_.mirrors[i];
-    const bool last = copy.bounces >= spec_.max_bounces || largest(mirror.reflectance * (mirror.tint * copy.weight)) < spec_.min_weight;
+    const bool last = copy.bounces >= spec_.max_bounces || largest(mirror.throughput * copy.weight) < spec_.min_weight;
     if (mirror.wall < 0) {
       // On a storey above one looks up, through what is its ceiling, or its floor when it stands on its head.
       const int way = mirror.wall == -2 ? 1 : -1, towards = copy.storey.sign > 0 ? way : -way;
@@ -305,7 +305,7 @@ std::vector<CutOff> CutOffs::of(const cover::Copy& copy) const {
     }
     if (last) {
       ends[i] = CutOff::depth;
-    } else if (left_out_ && (mirror.wall >= 64 || !((copy.nearer_walls >> mirror.wall) & 1))) {
+    } else if (left_out_ && !cover::faces_eye(copy, mirror.wall)) {
       cover::Copy next;
       next.cover_from_room = copy.cover_from_room * behind_[i];
       next.bounces = copy.bounces + 1, next.sheet = copy.sheet, next.storey = copy.storey;

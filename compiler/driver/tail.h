@@ -11,8 +11,8 @@ namespace orbc::driver {
 /// Whether a copy is left out of the product for its size in the picture, though a path may lead there. None: no copy is.
 using LeftOut = std::function<bool(const cover::Copy&)>;
 
-/// Copies smaller than the scene's `min_pixels` (cover/size.h), or than `budget_px` by bend::Detail::smaller_side_px: what a budget leaves
-/// out. Just large enough counts as too small, so that rounding opens no hole.
+/// Copies smaller than the scene's `min_pixels` (cover/projected_size.h), or than `budget_px` by bend::ScreenSize::smaller_side_px: what a
+/// budget leaves out. Just large enough counts as too small, so that rounding opens no hole.
 [[nodiscard]] LeftOut left_out_below(const Opened& opened, double budget_px);
 
 struct BeyondOptions {

@@ -1,5 +1,5 @@
 // The unfolding of light: a path from a surface point over mirrors to the lamp is a geodesic to the lamp's image. Walls without mirrors are
-// no letters of words, for the reason given at cover::walk_reach. Most images do not matter: in H² their number grows like e^L with the
+// no letters of words, for the reason given at cover::visit_copies. Most images do not matter: in H² their number grows like e^L with the
 // length L of the path, and the light of each falls like e^-L. So copies are visited one by one, and only images that are visible somewhere
 // in the room are kept.
 #include "compiler/light/lamp_image.h"
@@ -14,8 +14,8 @@
 
 #include "compiler/base/elementary.h"
 #include "compiler/cover/enumerate.h"
-#include "compiler/cover/reach.h"
 #include "compiler/light/falloff.h"
+#include "compiler/notation/euler.h"
 #include "compiler/notation/growth.h"
 #include "compiler/room/room.h"
 
@@ -53,7 +53,7 @@ MirroredSurfaces mirrored_surfaces(const place::PlacedRoom& room) {
     if (m.wall >= 0) mirrors.walls[static_cast<std::size_t>(m.wall)] = true;
     else (m.wall == -1 ? mirrors.floor : mirrors.ceiling) = true;
     mirrors.max_throughput =
-        std::max({mirrors.max_throughput, m.reflectance * m.tint.r, m.reflectance * m.tint.g, m.reflectance * m.tint.b});
+        std::max({mirrors.max_throughput, m.throughput.r, m.throughput.g, m.throughput.b});
   }
   return mirrors;
 }
@@ -77,13 +77,13 @@ void visit_group(const place::PlacedRoom& room, const MirroredSurfaces& mirrors,
   const cover::Automaton automaton(room.room.orbifold, std::max(1, bounces));
   cover::enumerate(automaton, reflections, bounces, [&](const cover::Element& element, const Isometry& cover_from_room) {
     const int length = static_cast<int>(element.word.size());
-    if (length > 0 && !mirrors.walls[static_cast<std::size_t>(wall[element.word.back()])]) return cover::Walk::back;
-    if (!visit({cover_from_room, length, 0, {}, false})) return cover::Walk::stop;
+    if (length > 0 && !mirrors.walls[static_cast<std::size_t>(wall[element.word.back()])]) return cover::Visit::prune;
+    if (!visit({cover_from_room, length, 0, {}, false})) return cover::Visit::stop;
     for (int sheet = 1; closed && sheet * half_turn <= bounces; ++sheet) {
       const int more = sheet % 2 == 0 ? sheet * half_turn + length : (sheet + 1) * half_turn - length;
-      if (more <= bounces && !visit({cover_from_room, more, sheet, {}, false})) return cover::Walk::stop;
+      if (more <= bounces && !visit({cover_from_room, more, sheet, {}, false})) return cover::Visit::stop;
     }
-    return cover::Walk::deeper;
+    return cover::Visit::descend;
   });
 }
 
@@ -130,11 +130,6 @@ trace::Direction image_of(const Isometry& map, const VerticalImage& vertical, co
 
 Position image_of(const HorizontalImage& horizontal, const VerticalImage& vertical, const Position& p) {
   return {horizontal.cover_from_room * p.floor, vertical.sign * p.z + vertical.shift};
-}
-
-bool is_orbifold(const place::PlacedRoom& room) {
-  return std::all_of(room.room.orbifold.corners.begin(), room.room.orbifold.corners.end(),
-                     [](const Rational& k) { return denominator(k) == 1; });
 }
 
 /// A room with all that the images of its lamps depend on.
@@ -192,7 +187,7 @@ std::optional<std::vector<LampImage>> images_up_to(const ImageContext& context, 
       }
     return true;
   };
-  if (is_orbifold(context.room)) visit_group(context.room, context.mirrors, bounces, visit);
+  if (notation::is_orbifold(context.room.room.orbifold)) visit_group(context.room, context.mirrors, bounces, visit);
   else visit_words(context.room, context.mirrors, bounces, {geometry::identity(context.room.room.space), 0, 0, {}, true}, visit);
   if (!complete || images.size() > kMaxImages) return std::nullopt;
   return images;

@@ -11,8 +11,7 @@ namespace {
 PlacedMirror from(const scene::Mirror& mirror, int wall) {
   PlacedMirror placed;
   placed.wall = wall;
-  placed.reflectance = mirror.reflectance;
-  placed.tint = mirror.tint;
+  placed.throughput = mirror.reflectance * mirror.tint;
   placed.glow = mirror.glow;
   return placed;
 }

@@ -41,9 +41,8 @@ struct PlacedMirror {
   int wall = 0;             ///< from 0; −1 the floor, −2 the ceiling
   double span[2] = {0, 0};  ///< arc length along the wall
   double height[2] = {0, 0};
-  double reflectance = 0.9;
-  scene::Color tint{1, 1, 1};
-  scene::Color glow{0, 0, 0};  ///< radiance of its own
+  scene::Color throughput{0.9, 0.9, 0.9};  ///< share of the light that it reflects: reflectance × tint
+  scene::Color glow{0, 0, 0};              ///< radiance of its own
 };
 
 /// The furnished room: everything there is to see, in room coordinates, before any copy is made.

@@ -18,7 +18,7 @@ constexpr double kEnd = 1e-9;
 MirrorArea area_of(const place::PlacedMirror& mirror, int index, double length, double height) {
   MirrorArea area;
   area.mirror = index;
-  area.weight = mirror.reflectance * mirror.tint;
+  area.weight = mirror.throughput;
   area.glow = mirror.glow;
   if (mirror.wall < 0) {
     area.whole = true;

@@ -91,16 +91,16 @@ class Filler {
     const Behind behind(page_, smallest);
     const cover::Automaton automaton(room_.orbifold, std::max(longest, 1));
     const bool done = cover::enumerate(automaton, mirrors_, longest, [&](const cover::Element& element, const Isometry& cover_from_room) {
-      if (++visits > kVisitsPerCopy * options_.max_copies) return cover::Walk::stop;
+      if (++visits > kVisitsPerCopy * options_.max_copies) return cover::Visit::stop;
       if (!element.word.empty()) {
         const Line& wall = room_.walls[wall_[element.word.back()]].line;
-        if (behind.is_unseen(cover_from_room * wall)) return cover::Walk::back;
+        if (behind.is_unseen(cover_from_room * wall)) return cover::Visit::prune;
       }
       if (is_seen(cover_from_room, smallest)) {
-        if (copies.size() == options_.max_copies) return cover::Walk::stop;
+        if (copies.size() == options_.max_copies) return cover::Visit::stop;
         take(element, cover_from_room);
       }
-      return cover::Walk::deeper;
+      return cover::Visit::descend;
     });
     if (done) return Outcome::whole;
     return copies.size() == options_.max_copies ? Outcome::too_many_copies : Outcome::too_many_visits;

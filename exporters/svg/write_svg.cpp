@@ -68,7 +68,7 @@ std::vector<Tile> visible_tiles(const Tiling& tiling, const Page& page, const st
     TilePath path = copy.wedge ? wedge_path(tiling, page, pieces, copy) : tile_path(page, pieces, copy.cover_from_room);
     if (path.d.empty() || path.diameter < smallest) continue;
     // Mirrors above each other show copies in the same wedge: from above there is one.
-    if (!copy.sills.empty() && !stacked.insert(path.d).second) continue;
+    if (!copy.height_bounds.empty() && !stacked.insert(path.d).second) continue;
     tiles.push_back({&copy, std::move(path)});
   }
   return tiles;

@@ -18,7 +18,7 @@ inline place::PlacedRoom mirror_room(const std::string& text, bool real = false)
   placed.room = std::move(room).value();
   for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
     if (placed.room.walls[i].reflects)
-      placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, 0.9, {1, 1, 1}});
+      placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, {0.9, 0.9, 0.9}});
   }
   return placed;
 }

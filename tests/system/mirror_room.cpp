@@ -23,7 +23,7 @@ std::string mirror_quad(const driver::Opened& opened, const place::PlacedMirror&
     const geometry::Point p = eye_from_room * room::point_on_wall(opened.room->room, mirror.wall, mirror.span[side]);
     return fmt::format("<{:.17g},{:.17g},{:.17g}>", p.x, p.y, mirror.height[level]);
   };
-  const scene::Color c = mirror.reflectance * mirror.tint;
+  const scene::Color c = mirror.throughput;
   return fmt::format(
       "mesh2 {{ vertex_vectors {{ 4, {},{},{},{} }} face_indices {{ 2, <0,1,2>,<0,2,3> }} texture {{ pigment {{ rgb 0 }} finish {{ ambient "
       "0 diffuse 0 emission 0 "

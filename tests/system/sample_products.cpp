@@ -186,7 +186,7 @@ void write_tiling(const std::string& notation, bool klein, const std::string& fo
                      copy.cover_from_room = map;
                      copy.word.assign(element.word.begin(), element.word.end());
                      tiling.copies.push_back(copy);
-                     return (map * geometry::Point()).w > 40 ? cover::Walk::back : cover::Walk::deeper;  // near the rim of the disk
+                     return (map * geometry::Point()).w > 40 ? cover::Visit::prune : cover::Visit::descend;  // near the rim of the disk
                    });
   write(folder + "/tiling.svg", svg::write_svg(tiling)[0].bytes);
   const std::vector<svg::Piece> pieces = svg::outline_pieces(tiling.room);

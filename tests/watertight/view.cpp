@@ -210,11 +210,11 @@ Seams seams(const driver::Product& product, const std::vector<cover::Copy>& copi
       const Vector3 a = at(edge.first), b = at(edge.second), ab = b - a;
       const auto on_border = [&](const cover::Bearing& border) {
         const double on = 1e-5;
-        return std::fabs(cover::turn(border, cover::Bearing{a.x, a.y})) < on * (1 + std::hypot(a.x, a.y)) &&
-               std::fabs(cover::turn(border, cover::Bearing{b.x, b.y})) < on * (1 + std::hypot(b.x, b.y));
+        return std::fabs(cover::cross(border, cover::Bearing{a.x, a.y})) < on * (1 + std::hypot(a.x, a.y)) &&
+               std::fabs(cover::cross(border, cover::Bearing{b.x, b.y})) < on * (1 + std::hypot(b.x, b.y));
       };
       if (copies[c].wedge && (on_border(copies[c].wedge->from) || on_border(copies[c].wedge->to))) continue;
-      if (!copies[c].sills.empty()) continue;
+      if (!copies[c].height_bounds.empty()) continue;
       ++found.edges;
       // Sorted by x: only what lies between the ends can lie on the edge.
       const float least = std::min(edge.first[0], edge.second[0]), most = std::max(edge.first[0], edge.second[0]);

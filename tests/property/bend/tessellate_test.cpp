@@ -32,8 +32,8 @@ CopyMap map_for(const place::Eye& eye, const cover::Copy& copy) {
 /// Whether two tessellations have the same bits: vertices as they are in the room, or on a circle of S²; triangles.
 bool same(const Tessellation& a, const Tessellation& b) {
   const auto alike = [](const NewVertex& p, const NewVertex& q) {
-    const bool at = !p.fixed || (p.at.x == q.at.x && p.at.y == q.at.y && p.at.z == q.at.z);
-    return p.v.w == q.v.w && p.v.x == q.v.x && p.v.y == q.v.y && p.z == q.z && p.uv == q.uv && p.fixed == q.fixed && at;
+    const bool at = !p.on_circle || (p.image.x == q.image.x && p.image.y == q.image.y && p.image.z == q.image.z);
+    return p.v.w == q.v.w && p.v.x == q.v.x && p.v.y == q.v.y && p.z == q.z && p.uv == q.uv && p.on_circle == q.on_circle && at;
   };
   return a.triangles == b.triangles && std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), alike);
 }
@@ -48,25 +48,25 @@ struct Flat {
   double worst = 0;
 };
 
-Flat flat_of(const CopyMap& map, const Sight& sight, const PartNet& net) {
-  const Tessellation fine = tessellate(map, sight, net, Uv(net.mesh->floor.size()), 1'000'000);
+Flat flat_of(const CopyMap& map, const ScreenMetric& metric, const EdgeMesh& part) {
+  const Tessellation fine = tessellate(map, metric, part, Uv(part.mesh->floor.size()), 1'000'000);
   REQUIRE(!fine.too_many);
-  CHECK(same(fine, tessellate_again(map, sight, net, Uv(net.mesh->floor.size()), fine.decisions)));
+  CHECK(same(fine, replay_tessellation(map, metric, part, Uv(part.mesh->floor.size()), fine.decisions)));
   Flat flat;
-  for (std::size_t i = 0; i < net.mesh->floor.size(); ++i) {
-    flat.v.push_back(net.mesh->floor[i]);
-    flat.z.push_back(net.mesh->z[i]);
-    flat.at.push_back(image_of(map, net.mesh->floor[i], net.mesh->z[i]));
+  for (std::size_t i = 0; i < part.mesh->floor.size(); ++i) {
+    flat.v.push_back(part.mesh->floor[i]);
+    flat.z.push_back(part.mesh->z[i]);
+    flat.at.push_back(image_of(map, part.mesh->floor[i], part.mesh->z[i]));
     flat.fixed.push_back(false);
   }
   for (const NewVertex& n : fine.vertices) {
     flat.v.push_back(n.v);
     flat.z.push_back(n.z);
-    flat.at.push_back(n.at);
-    flat.fixed.push_back(n.fixed);
+    flat.at.push_back(n.image);
+    flat.fixed.push_back(n.on_circle);
   }
   flat.triangles = fine.triangles;
-  flat.worst = fine.worst;
+  flat.worst = fine.max_error;
   return flat;
 }
 
@@ -104,16 +104,16 @@ double seen_distance(const place::Eye& eye, const Vector3& p, const Vector3 (&t)
 }
 
 /// How far a point lies from the flat triangle, as the eye would see it from aside: depth and all, in pixels.
-double off_surface(const Sight& sight, const Vector3& p, const Vector3 (&t)[3]) {
-  const Vector3 normal = cross(t[1] - t[0], t[2] - t[0]), d = p - sight.eye;
+double off_surface(const ScreenMetric& metric, const Vector3& p, const Vector3 (&t)[3]) {
+  const Vector3 normal = cross(t[1] - t[0], t[2] - t[0]), d = p - metric.eye;
   if (!(length(normal) > 0)) return 0;
-  return std::fabs(dot(p - t[0], normal)) / length(normal) / length(d) * pixels_at(sight, normalised(d));
+  return std::fabs(dot(p - t[0], normal)) / length(normal) / length(d) * pixels_per_radian_at(metric, normalised(d));
 }
 
-std::vector<PartNet> nets_of(const PlacedRoom& room) {
-  std::vector<PartNet> nets;
-  for (std::size_t i = 0; i < room.parts.size(); ++i) nets.push_back(part_net(room.room.space, room.parts[i], 0));
-  return nets;
+std::vector<EdgeMesh> edge_meshes_of(const PlacedRoom& room) {
+  std::vector<EdgeMesh> parts;
+  for (std::size_t i = 0; i < room.parts.size(); ++i) parts.push_back(edge_mesh(room.room.space, room.parts[i], 0));
+  return parts;
 }
 
 }  // namespace
@@ -126,18 +126,18 @@ TEST_CASE("every chord and every triangle lies within the tolerance, seen in the
   with.walls = true;
   with.knot_along = 24;
   const auto room = regular_room(of.corners, of.order, with);
-  const auto nets = nets_of(room);
+  const auto parts = edge_meshes_of(room);
   double worst = 0, deepest = 0;
   for (int view = 0; view < 2; ++view) {
     const auto eye = eye_at(room.room.space, 0.1 + 0.15 * view, 1.0 + 2 * view, 0.3 + 0.2 * view, 1.7 * view, 0.2 - 0.2 * view);
-    const Sight sight = sight_of(eye, {});
+    const ScreenMetric metric = screen_metric(eye, {});
     for (const auto& copy : copies_for(of, room)) {
       const CopyMap map = map_for(eye, copy);
-      for (const PartNet& net : nets) {
-        const Flat flat = flat_of(map, sight, net);
+      for (const EdgeMesh& part : parts) {
+        const Flat flat = flat_of(map, metric, part);
         CHECK(flat.worst <= 1);
         // What the cheap bound lets pass must need no split.
-        if (error_bound(map, sight, net) <= 1) CHECK(flat.triangles.size() == net.mesh->triangles.size());
+        if (error_bound(map, metric, part) <= 1) CHECK(flat.triangles.size() == part.mesh->triangles.size());
         for (const auto& t : flat.triangles) {
           if (flat.fixed[t[0]] || flat.fixed[t[1]] || flat.fixed[t[2]]) continue;
           const Vector3 drawn[3] = {flat.at[t[0]], flat.at[t[1]], flat.at[t[2]]};
@@ -157,7 +157,7 @@ TEST_CASE("every chord and every triangle lies within the tolerance, seen in the
             if (!in_picture(eye, project(eye, p))) continue;
             const double off = s < 27 ? seen_distance(eye, p, drawn[s / 9], drawn[(s / 9 + 1) % 3]) : seen_distance(eye, p, drawn);
             worst = std::max(worst, off);
-            deepest = std::max(deepest, off_surface(sight, p, drawn));
+            deepest = std::max(deepest, off_surface(metric, p, drawn));
           }
         }
       }
@@ -174,12 +174,12 @@ TEST_CASE("a part has no cracks inside: every edge has two sides or lies on the 
   Furnishing with;
   with.knot_along = 24;
   const auto room = regular_room(of.corners, of.order, with);
-  const auto nets = nets_of(room);
+  const auto parts = edge_meshes_of(room);
   const auto eye = eye_at(room.room.space, 0.17, 1.0, 0.37, 0.4, -0.2);
   for (const auto& copy : copies_for(of, room)) {
     const CopyMap map = map_for(eye, copy);
-    for (const PartNet& net : nets) {
-      const Flat flat = flat_of(map, sight_of(eye, {}), net);
+    for (const EdgeMesh& part : parts) {
+      const Flat flat = flat_of(map, screen_metric(eye, {}), part);
       std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
       for (const auto& t : flat.triangles) {
         for (int k = 0; k < 3; ++k) ++sides[{t[k], t[(k + 1) % 3]}];
@@ -188,7 +188,7 @@ TEST_CASE("a part has no cracks inside: every edge has two sides or lies on the 
         if (count != 1) FAIL("an edge is run through twice in one direction");
         if (sides.count({edge.second, edge.first})) continue;
         if (flat.fixed[edge.first] && flat.fixed[edge.second]) continue;  // the circle around a torn axis
-        if (net.mesh->kind == PartKind::object) FAIL("a closed mesh has got a hole");
+        if (part.mesh->kind == PartKind::object) FAIL("a closed mesh has got a hole");
         bool on_border = false;
         for (const auto& wall : room.room.walls) {
           on_border |=
@@ -204,7 +204,7 @@ TEST_CASE("neighbouring copies split their common wall alike and meet there", "[
   const Case& of = GENERATE(from_range(std::begin(kCases), std::end(kCases)));
   CAPTURE(of.name);
   const auto room = regular_room(of.corners, of.order);
-  const auto nets = nets_of(room);
+  const auto parts = edge_meshes_of(room);
   const auto eye = eye_at(room.room.space, 0.17, 1.0, 0.37, 0.4, -0.2);
   double worst = 0;
   std::size_t points = 0;
@@ -213,10 +213,10 @@ TEST_CASE("neighbouring copies split their common wall alike and meet there", "[
       cover::Copy other = copy;
       other.cover_from_room = copy.cover_from_room * geometry::reflection(room.room.space, room.room.walls[w].line);
       const CopyMap maps[2] = {map_for(eye, copy), map_for(eye, other)};
-      for (const PartNet& net : {nets[0], nets[1]}) {
+      for (const EdgeMesh& part : {parts[0], parts[1]}) {
         std::map<std::pair<double, double>, Vector3> met[2];
         for (int side = 0; side < 2; ++side) {
-          const Flat flat = flat_of(maps[side], sight_of(eye, {}), net);
+          const Flat flat = flat_of(maps[side], screen_metric(eye, {}), part);
           for (std::size_t i = 0; i < flat.v.size(); ++i) {
             if (std::fabs(value_at(room.room.walls[w].line, flat.v[i])) < 1e-13 && !flat.fixed[i])
               met[side][{flat.v[i].x, flat.v[i].y}] = flat.at[i];
@@ -241,7 +241,7 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
   Furnishing with;
   with.walls = true;
   const auto room = regular_room(3, 2, with);
-  const auto nets = nets_of(room);
+  const auto parts = edge_meshes_of(room);
   auto copies = with_sheets(copies_of(room, 3), 3, 3);
   const double middle = room.room.circumradius / 2;
   const struct {
@@ -261,17 +261,17 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
     eye.projection = scene::Projection::panorama;
     BendOptions fine;
     fine.tolerance_px = 0.04;
-    const Sight sight = sight_of(eye, fine);
+    const ScreenMetric metric = screen_metric(eye, fine);
     double area[4] = {0, 0, 0, 0}, turned = 0;
     for (const auto& copy : copies) {
       const CopyMap map = map_for(eye, copy);
       const double sign = copy.cover_from_room.reversing != (copy.sheet % 2 == 1) ? -1 : 1;
-      for (const PartNet& net : nets) {
-        const Flat flat = flat_of(map, sight, net);
+      for (const EdgeMesh& part : parts) {
+        const Flat flat = flat_of(map, metric, part);
         for (const auto& t : flat.triangles) {
           const Vector3 n = cross(flat.at[t[1]] - flat.at[t[0]], flat.at[t[2]] - flat.at[t[0]]);
           if (!std::isfinite(n.x + n.y + n.z)) FAIL("a triangle without place");
-          if (net.mesh->kind != PartKind::floor) continue;
+          if (part.mesh->kind != PartKind::floor) continue;
           turned += std::max(0.0, -sign * n.z / 2);
           area[copy.sheet] += sign * n.z / 2;
         }

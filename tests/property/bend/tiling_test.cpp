@@ -31,7 +31,7 @@ BentCover floors(PlacedRoom& room, const std::vector<cover::Copy>& copies, place
   eye.projection = scene::Projection::panorama;
   BendOptions options;
   options.tolerance_px = 0.02;
-  auto cover = bend::bend(room, plain_uv(room), copies, eye, options, serial_executor());
+  auto cover = bend_whole(room, plain_uv(room), copies, eye, options);
   REQUIRE(cover);
   return std::move(cover).value();
 }

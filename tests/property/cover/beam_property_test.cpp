@@ -72,7 +72,7 @@ int bounces_for(const place::PlacedRoom& room) {
 
 bool holds(const cover::Wedge& w, double angle) {
   const cover::Bearing b{std::cos(angle), std::sin(angle)};
-  return cover::turn(w.from, b) > 1e-9 && cover::turn(b, w.to) > 1e-9;
+  return cover::cross(w.from, b) > 1e-9 && cover::cross(b, w.to) > 1e-9;
 }
 
 }  // namespace
@@ -95,7 +95,8 @@ void compare_with_group(int trials, unsigned seed) {
     double worst = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
       const auto &x = a[i], &y = (*b)[i];
-      alike = alike && x.word == y.word && x.sheet == y.sheet && x.bounces == y.bounces && x.nearer_walls == y.nearer_walls && !x.wedge;
+      alike =
+          alike && x.word == y.word && x.sheet == y.sheet && x.bounces == y.bounces && x.eye_facing_walls == y.eye_facing_walls && !x.wedge;
       worst = std::max(worst, geometry::difference(x.cover_from_room, y.cover_from_room));
     }
     CHECK(alike);
@@ -113,7 +114,10 @@ TEST_CASE("copies cut by weight have the paths' own weights, and fit together", 
   for (int trial = 0; trial < 60; ++trial) {
     const std::string text = random_orbifold(random);
     auto room = mirror_room(text, true);
-    for (auto& mirror : room.mirrors) mirror.reflectance = 0.5 + 0.4 * static_cast<double>(random() % 1000) / 1000;
+    for (auto& mirror : room.mirrors) {
+      const double reflectance = 0.5 + 0.4 * static_cast<double>(random() % 1000) / 1000;
+      mirror.throughput = {reflectance, reflectance, reflectance};
+    }
     const auto eye = random_eye(room, random);
     INFO(text << " trial " << trial);
     const auto copies = beams_of(room, eye, bounces_for(room));
@@ -125,14 +129,13 @@ TEST_CASE("copies cut by weight have the paths' own weights, and fit together", 
       for (const auto* piece : pieces) {
         REQUIRE(piece->wedge);
         CHECK(geometry::difference(piece->cover_from_room, pieces.front()->cover_from_room) == 0);
-        loose += std::none_of(pieces.begin(), pieces.end(),
-                              [&](const auto* other) { return cover::same(other->wedge->from, piece->wedge->to); });
+        loose += std::none_of(pieces.begin(), pieces.end(), [&](const auto* other) { return other->wedge->from == piece->wedge->to; });
       }
       // A whole room has two ends; one around the eye's antipode has none.
       CHECK(loose <= 1);
     }
     // The number of elements is the group's, whatever the weights.
-    for (auto& mirror : room.mirrors) mirror.reflectance = 0.9;
+    for (auto& mirror : room.mirrors) mirror.throughput = {0.9, 0.9, 0.9};
     CHECK(of_element.size() == cover::unfold(room, eye, {bounces_for(room), 0, 0, {}})->size());
   }
 }
@@ -199,7 +202,7 @@ TEST_CASE("of mirrors above each other each ray has its own, in one piece of the
       const auto wall = static_cast<std::size_t>(room.mirrors[i].wall);
       divided[wall] = 0.2 + 0.6 * unit(random);
       room.mirrors[i].height[1] = divided[wall];
-      room.mirrors.push_back({room.mirrors[i].wall, {0, room.room.walls[wall].length}, {divided[wall], 1}, 0.5, {1, 1, 1}});
+      room.mirrors.push_back({room.mirrors[i].wall, {0, room.room.walls[wall].length}, {divided[wall], 1}, {0.5, 0.5, 0.5}});
     }
     const auto eye = random_eye(room, random);
     INFO(text << " trial " << trial);
@@ -238,8 +241,8 @@ TEST_CASE("of mirrors above each other each ray has its own, in one piece of the
         for (const auto& copy : copies) {
           if (copy.bounces != bounces) continue;
           if (!copy.wedge || !holds(*copy.wedge, angle)) continue;   // without a wedge: every ray that meets it has its weight
-          const bool seen = std::all_of(copy.sills.begin(), copy.sills.end(), [&](const cover::Sill& sill) {
-            return sill.above == (slope > cover::slope_of(space, sill, {std::cos(angle), std::sin(angle)}, eye.z));
+          const bool seen = std::all_of(copy.height_bounds.begin(), copy.height_bounds.end(), [&](const cover::HeightBound& bound) {
+            return bound.above == (slope > cover::slope_of(space, bound, {std::cos(angle), std::sin(angle)}, eye.z));
           });
           if (!seen) continue;
           ++found;

@@ -29,7 +29,7 @@ Executor threads(int count) {
 
 BentCover bent(const PlacedRoom& room, const std::vector<cover::Copy>& copies, const place::Eye& eye, const BendOptions& options = {},
                const Executor& executor = serial_executor()) {
-  auto result = bend::bend(room, plain_uv(room), copies, eye, options, executor);
+  auto result = bend_whole(room, plain_uv(room), copies, eye, options, executor);
   if (!result) FAIL(to_text(result.error()));
   return std::move(result).value();
 }
@@ -97,7 +97,7 @@ TEST_CASE("a wall is drawn by the nearer of its two copies only", "[bend]") {
   const std::size_t level = room.parts[0].triangles.size() + room.parts[1].triangles.size();
   for (std::size_t c = 0; c < copies.size(); ++c) {
     int drawn = 0;
-    for (int wall = 0; wall < 4; ++wall) drawn += !((copies[c].nearer_walls >> wall) & 1);
+    for (int wall = 0; wall < 4; ++wall) drawn += !((copies[c].eye_facing_walls >> wall) & 1);
     CHECK(cover.copies[c].index_count == 3 * (level + 2 * static_cast<std::size_t>(drawn)));
   }
 }
@@ -131,16 +131,16 @@ TEST_CASE("too dense a cover is refused with a tolerance that fits", "[bend]") {
   BendOptions options;
   options.tolerance_px = 1e-4;
   options.max_triangles = 20'000;
-  const auto refused = bend::bend(room, plain_uv(room), copies, eye, options, serial_executor());
+  const auto refused = bend_whole(room, plain_uv(room), copies, eye, options);
   REQUIRE(!refused);
   const auto& diagnostic = refused.error().front();
   CHECK(diagnostic.code == "bend.too-dense");
   double fits = 0;
   REQUIRE(std::sscanf(diagnostic.hint.c_str(), "a tolerance of %lf px fits", &fits) == 1);
   options.tolerance_px = fits;
-  CHECK(bend::bend(room, plain_uv(room), copies, eye, options, serial_executor()).has_value());
+  CHECK(bend_whole(room, plain_uv(room), copies, eye, options).has_value());
   options.max_triangles = 100;
-  const auto never = bend::bend(room, plain_uv(room), copies, eye, options, serial_executor());
+  const auto never = bend_whole(room, plain_uv(room), copies, eye, options);
   REQUIRE(!never);
   CHECK(never.error().front().hint.find("max_bounces") != std::string::npos);
 }
@@ -173,9 +173,11 @@ TEST_CASE("work stops when the user asks", "[bend]") {
   std::atomic<bool> cancelled{true};
   Progress progress;
   progress.cancelled = &cancelled;
-  CHECK_THROWS_AS(bend::bend(room, plain_uv(room), copies_of(room, 2), eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1), {},
-                             serial_executor(), progress),
-                  Cancelled);
+  const auto uv = plain_uv(room);
+  const auto copies = copies_of(room, 2);
+  const std::array models{whole_model(room, uv)};
+  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  CHECK_THROWS_AS(bend::bend(room, {copies, models, {}}, eye, {}, serial_executor(), progress), Cancelled);
 }
 
 TEST_CASE("each copy is drawn from its own model, and models share what they have in common", "[bend]") {
@@ -183,7 +185,7 @@ TEST_CASE("each copy is drawn from its own model, and models share what they hav
   const auto uv = plain_uv(room);
   const auto copies = copies_of(room, 3);
   const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
-  const auto plain = bend::bend(room, uv, copies, eye, {}, serial_executor());
+  const auto plain = bend_whole(room, uv, copies, eye);
   REQUIRE(plain.has_value());
 
   // The second model lacks the first part and has other colours elsewhere.
@@ -194,7 +196,7 @@ TEST_CASE("each copy is drawn from its own model, and models share what they hav
   models[1].parts.erase(models[1].parts.begin());
   std::vector<std::uint32_t> model_of_copy;
   for (std::size_t i = 0; i < copies.size(); ++i) model_of_copy.push_back(i % 2);
-  const auto mixed = bend::bend(room, models, model_of_copy, copies, eye, {}, serial_executor());
+  const auto mixed = bend::bend(room, {copies, models, model_of_copy}, eye, {}, serial_executor());
   REQUIRE(mixed.has_value());
   for (std::size_t i = 0; i < copies.size(); ++i) {
     const BentRange &a = plain->copies[i], &b = mixed->copies[i];
@@ -212,7 +214,7 @@ TEST_CASE("each copy is drawn from its own model, and models share what they hav
   }
 }
 
-TEST_CASE("a flat part is drawn as it is", "[bend]") {
+TEST_CASE("a part that must not be split is drawn with its own triangles", "[bend]") {
   const auto room = regular_room(5, 2);
   const auto uv = plain_uv(room);
   const auto copies = copies_of(room, 1);
@@ -221,10 +223,12 @@ TEST_CASE("a flat part is drawn as it is", "[bend]") {
   fine.tolerance_px = 0.01;
   Model model = whole_model(room, uv);
   std::size_t triangles = 0;
-  for (Model::Part& part : model.parts) part.flat = true;
+  for (Model::Part& part : model.parts) part.unsplit = true;
   for (const auto& part : room.parts) triangles += part.triangles.size();
-  const auto flat = bend::bend(room, {model}, {}, {copies.front()}, eye, fine, serial_executor());
-  const auto split = bend::bend(room, uv, {copies.front()}, eye, fine, serial_executor());
+  const std::vector<cover::Copy> first{copies.front()};
+  const std::array models{model};
+  const auto flat = bend::bend(room, {first, models, {}}, eye, fine, serial_executor());
+  const auto split = bend_whole(room, uv, first, eye, fine);
   REQUIRE((flat.has_value() && split.has_value()));
   CHECK(flat->indices.size() == 3 * triangles);
   CHECK(split->indices.size() > 3 * triangles);

@@ -44,7 +44,7 @@ TEST_CASE("wedges around the eye divide a mesh without gap or overlap, vertex by
   if (sheet == 1 && space != Space::spherical) return;
   const auto mesh = sheet_mesh(space, away, 5);
   const std::vector<std::array<float, 2>> uv(mesh.floor.size());
-  const auto net = part_net(space, mesh, 0);
+  const auto net = edge_mesh(space, mesh, 0);
   const LogMap map{space, geometry::matrix(geometry::rotation(space, 0.3)), sheet};
   std::mt19937 random(7);
   std::vector<cover::Bearing> borders;
@@ -58,8 +58,8 @@ TEST_CASE("wedges around the eye divide a mesh without gap or overlap, vertex by
   for (std::size_t i = 0; i < borders.size(); ++i) {
     const cover::Wedge wedge{borders[i], borders[(i + 1) % borders.size()]};
     const auto part = clipped(wedge, map, net, uv);
-    if (place_in(wedge, map, net) == InWedge::none) CHECK(part->mesh.triangles.empty());
-    CHECK(part->net.points.w.size() == part->mesh.floor.size());
+    if (wedge_overlap(wedge, map, net) == WedgeOverlap::outside) CHECK(part->mesh.triangles.empty());
+    CHECK(part->part.points.w.size() == part->mesh.floor.size());
     pieces += part->mesh.triangles.size();
     for (const auto& t : part->mesh.triangles) {
       for (int k = 0; k < 3; ++k) ++directed[{bits(part->mesh, t[k]), bits(part->mesh, t[(k + 1) % 3])}];
@@ -79,9 +79,9 @@ TEST_CASE("wedges around the eye divide a mesh without gap or overlap, vertex by
 
 TEST_CASE("a part on a storey above stands on its head", "[bend]") {
   const auto mesh = sheet_mesh(Space::euclidean, 1, 2);
-  const auto net = part_net(Space::euclidean, mesh, 0);
-  const auto part = lifted({1, -1, 2.0}, Space::euclidean, net);
+  const auto net = edge_mesh(Space::euclidean, mesh, 0);
+  const auto part = on_storey({1, -1, 2.0}, Space::euclidean, net);
   CHECK(part->mesh.z[0] == 2.0 - mesh.z[0]);
-  CHECK(part->net.low == Approx(2.0 - net.high));
-  CHECK(part->net.points.z[3] == static_cast<float>(2.0 - mesh.z[3]));
+  CHECK(part->part.low == Approx(2.0 - net.high));
+  CHECK(part->part.points.z[3] == static_cast<float>(2.0 - mesh.z[3]));
 }

@@ -1,5 +1,6 @@
 // Small rooms built by closed formulas, so that the tests of bending depend on nothing but geometry.
 #pragma once
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -141,7 +142,7 @@ inline PlacedRoom regular_room(int n, int k, const Furnishing& with = {}) {
     wall.along = geometry::direction_to(room.space, corners[i], corners[(i + 1) % n]);
     wall.length = geometry::distance(room.space, corners[i], corners[(i + 1) % n]);
     room.walls.push_back(wall);
-    placed.mirrors.push_back({i, {0, wall.length}, {0, with.height}, 0.9, {1, 1, 1}});
+    placed.mirrors.push_back({i, {0, wall.length}, {0, with.height}, {0.9, 0.9, 0.9}});
   }
   placed.height = with.height;
   placed.parts.push_back(level_part(room.space, corners, 0, PartKind::floor, with.floor_cells));
@@ -180,13 +181,13 @@ inline std::vector<cover::Copy> copies_of(const PlacedRoom& placed, int length) 
       const Isometry next = geometry::renormalised(from.cover_from_room * mirrors[w]);
       const auto found = lengths.find(key(next));
       if (found != lengths.end()) {
-        if (found->second < static_cast<int>(from.word.size())) all[i].nearer_walls |= std::uint64_t{1} << w;
+        if (found->second < static_cast<int>(from.word.size())) all[i].eye_facing_walls |= std::uint64_t{1} << w;
         continue;
       }
       if (static_cast<int>(from.word.size()) == length) continue;
       lengths.emplace(key(next), static_cast<int>(from.word.size()) + 1);
       cover::Copy copy = from;
-      copy.nearer_walls = 0;
+      copy.eye_facing_walls = 0;
       copy.cover_from_room = next;
       copy.word.push_back(static_cast<std::uint8_t>(w));
       copy.bounces = static_cast<int>(copy.word.size());
@@ -204,7 +205,7 @@ inline std::vector<cover::Copy> with_sheets(const std::vector<cover::Copy>& copi
       const int length = static_cast<int>(copy.word.size());
       copy.sheet = sheet;
       copy.bounces = sheet % 2 == 0 ? sheet * longest + length : (sheet + 1) * longest - length;
-      if (sheet % 2 == 1) copy.nearer_walls = ~copy.nearer_walls;
+      if (sheet % 2 == 1) copy.eye_facing_walls = ~copy.eye_facing_walls;
       all.push_back(copy);
     }
   }
@@ -229,6 +230,13 @@ inline std::vector<std::vector<std::array<float, 2>>> plain_uv(const PlacedRoom&
       uv.back().push_back({static_cast<float>(part.floor[i].x), static_cast<float>(part.floor[i].y)});
   }
   return uv;
+}
+
+/// Bends copies that are all drawn from the room itself.
+inline Result<BentCover> bend_whole(const PlacedRoom& room, const std::vector<Uv>& uv, const std::vector<cover::Copy>& copies,
+                                    const place::Eye& eye, const BendOptions& options = {}, const Executor& executor = serial_executor()) {
+  const std::array models{whole_model(room, uv)};
+  return bend::bend(room, {copies, models, {}}, eye, options, executor);
 }
 
 }  // namespace orbc::bend::test

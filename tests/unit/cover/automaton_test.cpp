@@ -49,9 +49,9 @@ void check_against_matrices(const notation::Orbifold& o, int length) {
     const test::FieldGroup::Matrix m = group.element(word);
     std::uint64_t shorter = 0;
     for (std::size_t wall = 0; wall < group.walls(); ++wall) {
-      const Word& neighbour = ball.normal_forms.at(group.times(m, wall));
+      const Word& neighbour = ball.normal_forms.at(group.multiply(m, wall));
       if (neighbour.size() < word.size()) shorter |= std::uint64_t{1} << wall;
-      one_by_one_agrees = one_by_one_agrees && times(automaton, word, static_cast<int>(wall)) == neighbour;
+      one_by_one_agrees = one_by_one_agrees && multiply(automaton, word, static_cast<int>(wall)) == neighbour;
     }
     descents_agree = descents_agree && e.descents == shorter && descents(automaton, word) == shorter && is_normal_form(automaton, word);
     return true;
@@ -144,7 +144,7 @@ TEST_CASE("the table and the computed automaton agree where both apply", "[cover
     const CornerAutomaton computed(roots);
     const auto list = [&](const auto& machine) {
       std::vector<std::pair<Word, std::uint64_t>> all;
-      detail::walk(
+      detail::visit_words(
           machine, length, [](std::size_t, int) {},
           [&](const Element& e) {
             return all.push_back({Word(e.word.begin(), e.word.end()), e.descents}), true;

@@ -30,7 +30,7 @@ std::vector<cover::Copy> beams_of(const place::PlacedRoom& room, const scene::Co
 }
 
 /// The angle from a wedge's first border to its second.
-double angle(const cover::Wedge& w) { return std::atan2(cover::turn(w.from, w.to), w.from.x * w.to.x + w.from.y * w.to.y); }
+double angle(const cover::Wedge& w) { return std::atan2(cover::cross(w.from, w.to), w.from.x * w.to.x + w.from.y * w.to.y); }
 
 }  // namespace
 
@@ -48,7 +48,7 @@ TEST_CASE("beams of a room of equal mirrors find the copies of the group, whole"
       CHECK(a.word == b.word);
       CHECK(a.sheet == b.sheet);
       CHECK(a.bounces == b.bounces);
-      CHECK(a.nearer_walls == b.nearer_walls);
+      CHECK(a.eye_facing_walls == b.eye_facing_walls);
       CHECK(!a.wedge);
       CHECK(a.weight.r == Approx(b.weight.r).epsilon(1e-13));
       CHECK(geometry::difference(a.cover_from_room, b.cover_from_room) <= 1e-12);
@@ -58,8 +58,8 @@ TEST_CASE("beams of a room of equal mirrors find the copies of the group, whole"
 
 TEST_CASE("a copy of a room with odd corners and unequal mirrors is cut where its paths differ in weight", "[cover]") {
   auto room = mirror_room("*333");
-  room.mirrors[0].reflectance = 0.5;
-  room.mirrors[1].reflectance = 0.7;
+  room.mirrors[0].throughput = {0.5, 0.5, 0.5};
+  room.mirrors[1].throughput = {0.7, 0.7, 0.7};
   const auto copies = beams_of(room, {3, 0, 0, {}});
   // s1 s2 s1 = s2 s1 s2: the copy opposite a corner is seen past it on both sides.
   std::map<std::string, std::vector<cover::Copy>> by_word;
@@ -70,7 +70,7 @@ TEST_CASE("a copy of a room with odd corners and unequal mirrors is cut where it
   CHECK(std::max(across[0].weight.r, across[1].weight.r) == Approx(0.5 * 0.7 * 0.7));
   REQUIRE(across[0].wedge);
   REQUIRE(across[1].wedge);
-  const bool meets = cover::same(across[0].wedge->to, across[1].wedge->from) || cover::same(across[1].wedge->to, across[0].wedge->from);
+  const bool meets = across[0].wedge->to == across[1].wedge->from || across[1].wedge->to == across[0].wedge->from;
   CHECK(meets);
   CHECK(geometry::difference(across[0].cover_from_room, across[1].cover_from_room) == 0);
   CHECK(by_word.at("1").size() == 1);
@@ -107,59 +107,59 @@ TEST_CASE("plain parts of walls end beams", "[cover]") {
   CHECK(beams_of(two, {6, 0, 0, {}}).size() == 13);   // opposite: a row of 2·6 + 1
 }
 
-TEST_CASE("mirrors above each other that differ divide what is seen at sills", "[cover]") {
+TEST_CASE("mirrors above each other that differ divide what is seen by height bounds", "[cover]") {
   auto room = mirror_room("*2222");
   room.mirrors.resize(1);
   room.mirrors[0].height[1] = 0.4;
-  room.mirrors.push_back({0, {0, room.room.walls[0].length}, {0.5, 1}, 0.5, {1, 1, 1}});
+  room.mirrors.push_back({0, {0, room.room.walls[0].length}, {0.5, 1}, {0.5, 0.5, 0.5}});
   const auto copies = beams_of(room, {6, 0, 0, {}});
   REQUIRE(copies.size() == 3);
   for (std::size_t i = 1; i < 3; ++i) {
     REQUIRE(copies[i].wedge);
-    REQUIRE(copies[i].sills.size() == 1);
-    CHECK(copies[i].sills[0].z == Approx(0.45));   // in the middle of the wall between them
-    CHECK(copies[i].weight.r == Approx(copies[i].sills[0].above ? 0.5 : 0.9));
+    REQUIRE(copies[i].height_bounds.size() == 1);
+    CHECK(copies[i].height_bounds[0].z == Approx(0.45));  // in the middle of the wall between them
+    CHECK(copies[i].weight.r == Approx(copies[i].height_bounds[0].above ? 0.5 : 0.9));
   }
-  CHECK(copies[1].sills[0].above != copies[2].sills[0].above);
-  room.mirrors.back().reflectance = 0.9;
+  CHECK(copies[1].height_bounds[0].above != copies[2].height_bounds[0].above);
+  room.mirrors.back().throughput = {0.9, 0.9, 0.9};
   const auto alike = beams_of(room, {6, 0, 0, {}});
   REQUIRE(alike.size() == 2);
-  CHECK((!alike[1].wedge && alike[1].sills.empty()));
+  CHECK((!alike[1].wedge && alike[1].height_bounds.empty()));
 }
 
-TEST_CASE("a bundle of rays keeps the sills that still bound it", "[cover]") {
-  using cover::Sill;
-  const auto sill = [](double distance, double z, bool above) { return Sill{{-distance, 1, 0}, 0, z, above}; };
+TEST_CASE("a bundle of rays keeps the height bounds that are not implied", "[cover]") {
+  using cover::HeightBound;
+  const auto bound = [](double distance, double z, bool above) { return HeightBound{{-distance, 1, 0}, 0, z, above}; };
   const double eye = 0.5;
-  std::vector<Sill> sills;
-  cover::narrow(sills, sill(1, 0.8, false), eye);
-  cover::narrow(sills, sill(2, 0.8, false), eye);   // lower, being farther
-  REQUIRE(sills.size() == 1);
-  CHECK(sills[0].line.w == -2);
-  cover::narrow(sills, sill(3, 0.8, true), eye);
-  cover::narrow(sills, sill(4, 0.8, true), eye);    // passed anyway
-  REQUIRE(sills.size() == 2);
-  CHECK(sills[1].line.w == -3);
-  cover::narrow(sills, sill(4, 0.2, true), eye);    // below the eye
-  CHECK(sills.size() == 2);
-  const cover::Wedge ahead{{std::cos(0.1), -std::sin(0.1)}, {std::cos(0.1), std::sin(0.1)}};
-  const auto passes = [&](const std::vector<Sill>& all, double low, double high) {
-    return !cover::nothing_passes(Space::euclidean, all, sill(5, low, true), sill(5, high, false), ahead, eye);
+  std::vector<HeightBound> bounds;
+  bounds = cover::with_bound(bounds, bound(1, 0.8, false), eye);
+  bounds = cover::with_bound(bounds, bound(2, 0.8, false), eye);  // lower, being farther
+  REQUIRE(bounds.size() == 1);
+  CHECK(bounds[0].line.w == -2);
+  bounds = cover::with_bound(bounds, bound(3, 0.8, true), eye);
+  bounds = cover::with_bound(bounds, bound(4, 0.8, true), eye);  // passed anyway
+  REQUIRE(bounds.size() == 2);
+  CHECK(bounds[1].line.w == -3);
+  bounds = cover::with_bound(bounds, bound(4, 0.2, true), eye);  // below the eye
+  CHECK(bounds.size() == 2);
+  const cover::Wedge wedge{{std::cos(0.1), -std::sin(0.1)}, {std::cos(0.1), std::sin(0.1)}};
+  const auto passes = [&](const std::vector<HeightBound>& all, double low, double high) {
+    return !cover::is_blocked(Space::euclidean, all, {bound(5, low, true), bound(5, high, false)}, wedge, eye);
   };
-  CHECK(passes(sills, 0, 1.3));
-  CHECK(!passes(sills, 0, 0.9));
-  CHECK(!passes({sill(1, 0.8, true), sill(1, 0.7, false)}, 0, 1));
+  CHECK(passes(bounds, 0, 1.3));
+  CHECK(!passes(bounds, 0, 0.9));
+  CHECK(!passes({bound(1, 0.8, true), bound(1, 0.7, false)}, 0, 1));
 }
 
-TEST_CASE("a sill is met where the ray meets its wall, in every space and half turn", "[cover]") {
+TEST_CASE("a height bound is met where the ray meets its wall, in every space and half turn", "[cover]") {
   const Space space = GENERATE(Space::spherical, Space::euclidean, Space::hyperbolic);
   const geometry::Point a = geometry::point_along(space, {}, {0, 1, 0}, 0.5), b = geometry::point_along(space, {}, {0, 0, 1}, 0.7);
-  const cover::Sill sill{geometry::line_through(space, a, b), 0, 1, false};
-  CHECK(cover::distance_to(space, sill, {1, 0}) == Approx(0.5).epsilon(1e-12));
-  CHECK(cover::distance_to(space, sill, {0, 1}) == Approx(0.7).epsilon(1e-12));
-  CHECK(cover::slope_of(space, sill, {0, 1}, 0.5) == Approx(0.5 / 0.7));
+  const cover::HeightBound bound{geometry::line_through(space, a, b), 0, 1, false};
+  CHECK(cover::distance_to(space, bound, {1, 0}) == Approx(0.5).epsilon(1e-12));
+  CHECK(cover::distance_to(space, bound, {0, 1}) == Approx(0.7).epsilon(1e-12));
+  CHECK(cover::slope_of(space, bound, {0, 1}, 0.5) == Approx(0.5 / 0.7));
   if (space == Space::spherical) {
-    const cover::Sill round{geometry::reversed(sill.line), 1, 1, false};
+    const cover::HeightBound round{geometry::reversed(bound.line), 1, 1, false};
     CHECK(cover::distance_to(space, round, {1, 0}) == Approx(0.5 + M_PI).epsilon(1e-12));
   }
 }
@@ -180,13 +180,13 @@ TEST_CASE("mirrors on floor and ceiling stack storeys", "[cover]") {
   auto room = mirror_room("*2222");
   room.height = 2;
   room.mirrors.clear();
-  room.mirrors.push_back({-2, {0, 0}, {0, 0}, 0.5, {1, 1, 1}});
+  room.mirrors.push_back({-2, {0, 0}, {0, 0}, {0.5, 0.5, 0.5}});
   const auto one = cover::unfold(room, eye_in(room), {6, 0, 0, {}});
   REQUIRE(one);
   REQUIRE(one->size() == 2);
   CHECK((*one)[1].storey.sign == -1);
   CHECK((*one)[1].storey.offset == 4);
-  room.mirrors.push_back({-1, {0, 0}, {0, 0}, 0.8, {1, 1, 1}});
+  room.mirrors.push_back({-1, {0, 0}, {0, 0}, {0.8, 0.8, 0.8}});
   const auto both = cover::unfold(room, eye_in(room), {3, 0, 0, {}});
   REQUIRE(both);
   REQUIRE(both->size() == 7);
@@ -199,7 +199,7 @@ TEST_CASE("mirrors on floor and ceiling stack storeys", "[cover]") {
   CHECK(by_number[-3].weight.r == Approx(0.8 * 0.5 * 0.8));
   const auto with_walls = [&] {
     auto full = mirror_room("*2222");
-    full.mirrors.push_back({-2, {0, 0}, {0, 0}, 0.5, {1, 1, 1}});
+    full.mirrors.push_back({-2, {0, 0}, {0, 0}, {0.5, 0.5, 0.5}});
     return cover::unfold(full, eye_in(full), {2, 0, 0, {}})->size();
   }();
   CHECK(with_walls == 13 + 5);   // as many again on the storey above, with a bounce less

@@ -46,13 +46,14 @@ TEST_CASE("a visitor leaves out what lies behind a word", "[cover]") {
   CHECK(behind == 0);
   CHECK(visited < 166);
   visited = 0;
-  CHECK(enumerate(Automaton(orbifold("*22222")), 4, [&](const Element&) { return ++visited, Walk::back; }));
+  CHECK(enumerate(Automaton(orbifold("*22222")), 4, [&](const Element&) { return ++visited, Visit::prune; }));
   CHECK(visited == 1);
 }
 
 TEST_CASE("a visitor ends the stream", "[cover]") {
   std::size_t visited = 0;
-  CHECK_FALSE(enumerate(Automaton(orbifold("*22222")), 100, [&](const Element&) { return ++visited == 17 ? Walk::stop : Walk::deeper; }));
+  CHECK_FALSE(
+      enumerate(Automaton(orbifold("*22222")), 100, [&](const Element&) { return ++visited == 17 ? Visit::stop : Visit::descend; }));
   CHECK(visited == 17);
 }
 

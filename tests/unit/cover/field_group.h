@@ -40,7 +40,7 @@ class FieldGroup {
   }
 
   /// m · s_wall: the image of α_t becomes m(α_t) + bond·m(α_wall).
-  [[nodiscard]] Matrix times(const Matrix& m, std::size_t wall) const {
+  [[nodiscard]] Matrix multiply(const Matrix& m, std::size_t wall) const {
     Matrix product = m;
     for (std::size_t t = 0; t < walls_; ++t)
       for (std::size_t row = 0; row < walls_; ++row)
@@ -50,7 +50,7 @@ class FieldGroup {
 
   [[nodiscard]] Matrix element(const cover::Word& word) const {
     Matrix m = one();
-    for (const std::uint8_t wall : word) m = times(m, wall);
+    for (const std::uint8_t wall : word) m = multiply(m, wall);
     return m;
   }
 
@@ -99,7 +99,7 @@ inline Ball ball(const FieldGroup& group, int length, std::size_t most = 20000) 
       for (std::size_t wall = 0; wall < group.walls(); ++wall) {
         cover::Word longer = word;
         longer.push_back(static_cast<std::uint8_t>(wall));
-        if (b.normal_forms.insert({group.times(m, wall), longer}).second) next.push_back(longer);
+        if (b.normal_forms.insert({group.multiply(m, wall), longer}).second) next.push_back(longer);
       }
     }
     b.by_length.push_back(next);

@@ -70,10 +70,10 @@ TEST_CASE("no point of the picture is displaced by more than the levels' bound",
   const auto choice = driver::choose_levels(room, levels, copies, eye, options);
   CHECK(choice.error_px <= options.tolerance_px);
   REQUIRE(choice.model_of_copy.size() == copies.size());
-  const bend::Detail detail(eye, options);
+  const bend::ScreenSize detail(eye, options);
   const auto& part = room.parts.back();
-  const auto extent = bend::extent_of(space, part);
-  const bend::Sight sight = bend::sight_of(eye, options);
+  const auto extent = bend::bounding_cylinder(space, part);
+  const bend::ScreenMetric sight = bend::screen_metric(eye, options);
   bool any = false;
   for (std::size_t i = 0; i < copies.size(); ++i) {
     any = any || choice.models[choice.model_of_copy[i]].back() > 0;
@@ -89,9 +89,9 @@ TEST_CASE("no point of the picture is displaced by more than the levels' bound",
         const auto moved = frame * geometry::point_from_log(space, {axis == 0 ? step : 0, axis == 1 ? step : 0});
         const auto q = bend::bent_position(map, moved, part.z[v] + (axis == 2 ? step : 0)) - sight.eye;
         const double angle = length(cross(p, q)) / length(p) / length(q);
-        const double seen = angle * (dot(p, eye.forward) > 0 ? bend::pixels_at(sight, geometry::normalised(p)) : 0);
-        CHECK(seen <= pixels * step * 1.001 * bend::kOutside);
-        if (bend::pixels_at(sight, geometry::normalised(p)) > 0 && place::pixel_of(eye, p)) {
+        const double seen = angle * (dot(p, eye.forward) > 0 ? bend::pixels_per_radian_at(sight, geometry::normalised(p)) : 0);
+        CHECK(seen <= pixels * step * 1.001 * bend::kOffscreenFactor);
+        if (bend::pixels_per_radian_at(sight, geometry::normalised(p)) > 0 && place::pixel_of(eye, p)) {
           const auto at = *place::pixel_of(eye, p);
           if (at[0] > 0 && at[1] > 0 && at[0] < eye.width && at[1] < eye.height) CHECK(seen <= pixels * step * 1.001);
         }

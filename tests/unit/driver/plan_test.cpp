@@ -94,7 +94,8 @@ TEST_CASE("few copies tell of all", "[driver][long]") {
       std::vector<cover::Copy> some;
       for (const std::size_t i : which) some.push_back((*copies)[i]);
       bent_copies = some.size();
-      return bend::bend(atlas->room, atlas->uv, some, opened.eye, {}, executor);
+      const std::array models{bend::whole_model(atlas->room, atlas->uv)};
+      return bend::bend(atlas->room, {some, models, {}}, opened.eye, {}, executor);
     };
     const auto planned = driver::estimate(cover::contents_of(*opened.room), opened.eye, *copies, opened.scene.cover.max_bounces,
                                           ~std::uint64_t{0}, bend_some, 1);

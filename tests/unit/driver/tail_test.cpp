@@ -31,8 +31,8 @@ TEST_CASE("paths are cut off where copies have no bounce left, or not enough wei
 TEST_CASE("storeys are cut off on the side away from the room", "[driver]") {
   auto room = regular_room(4, 2);
   room.mirrors.clear();
-  room.mirrors.push_back({-2, {0, 0}, {0, 0}, 0.9, {1, 1, 1}});   // the ceiling
-  room.mirrors.push_back({-1, {0, 0}, {0, 0}, 0.9, {1, 1, 1}});   // the floor
+  room.mirrors.push_back({-2, {0, 0}, {0, 0}, {0.9, 0.9, 0.9}});  // the ceiling
+  room.mirrors.push_back({-1, {0, 0}, {0, 0}, {0.9, 0.9, 0.9}});  // the floor
   scene::CoverSpec spec;
   spec.max_bounces = 1;
   cover::Copy copy;
@@ -57,9 +57,9 @@ TEST_CASE("a mirror ends where the copy behind it is left out, and only there", 
   cover::Copy copy;
   CHECK((driver::CutOffs(room, spec, left_out).of(copy) == Ends{CutOff::no, CutOff::no, CutOff::size, CutOff::no, CutOff::no}));
   // Not by the wall through which one came; and what the tracer does not reflect either is cut off by depth.
-  copy.nearer_walls = 1 << 2;
+  copy.eye_facing_walls = 1 << 2;
   CHECK(driver::CutOffs(room, spec, left_out).of(copy) == Ends(5, CutOff::no));
-  copy.nearer_walls = 0;
+  copy.eye_facing_walls = 0;
   spec.max_bounces = 0;
   CHECK(driver::CutOffs(room, spec, left_out).of(copy) == Ends(5, CutOff::depth));
 }

@@ -96,7 +96,7 @@ TEST_CASE("every default room is furnished: floor, ceiling, a full mirror on eac
     REQUIRE(all.room.mirrors.size() == all.room.room.walls.size() - ends);
     for (const PlacedMirror& m : all.room.mirrors) {
       CHECK(m.span[1] == all.room.room.walls[m.wall].length);
-      CHECK(m.reflectance == 0.9);
+      CHECK(m.throughput == (scene::Color{0.9, 0.9, 0.9}));
     }
     for (const PlacedMesh& part : all.room.parts) {
       CHECK(part.look.size() == part.triangles.size());
@@ -114,7 +114,7 @@ TEST_CASE("floor and ceiling mirrors replace their panels", "[place]") {
   REQUIRE(all.room.mirrors.size() == 6);
   CHECK(all.room.mirrors[4].wall == -1);
   CHECK(all.room.mirrors[5].wall == -2);
-  CHECK(all.room.mirrors[5].reflectance == 0.5);
+  CHECK(all.room.mirrors[5].throughput == (scene::Color{0.5, 0.5, 0.5}));
 }
 
 TEST_CASE("mirrors are clipped to their walls; one that misses its wall is left out with a warning", "[place]") {

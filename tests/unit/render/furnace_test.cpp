@@ -91,7 +91,7 @@ scene::Color unfolded(const place::PlacedRoom& room, const trace::Ray& ray, int 
     const bool up = (ray.m > 0) == (storeys % 2 == 0);
     const place::PlacedMirror mirror = mirror_on(plane ? (up ? trace::kCeiling : trace::kFloor) : wall);
     sum = sum + weight * mirror.glow;
-    weight = mirror.reflectance * (weight * mirror.tint);
+    weight = weight * mirror.throughput;
     if (plane) {
       ++storeys;
       continue;

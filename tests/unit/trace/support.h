@@ -99,7 +99,7 @@ inline place::PlacedRoom furnished(room::Room room, double height = 1, double re
   place::PlacedRoom placed;
   placed.height = height;
   for (int i = 0; i < static_cast<int>(room.walls.size()); ++i)
-    placed.mirrors.push_back({i, {0, room.walls[i].length}, {0, height}, reflectance, {1, 1, 1}});
+    placed.mirrors.push_back({i, {0, room.walls[i].length}, {0, height}, {reflectance, reflectance, reflectance}});
   placed.room = std::move(room);
   return placed;
 }

@@ -173,8 +173,8 @@ TEST_CASE("vertical rays, rays in a wall and rays in an edge of the room find th
 
 TEST_CASE("a ceiling mirror and a floor mirror stack the storeys", "[trace]") {
   auto placed = furnished(regular_room(Space::hyperbolic, 5, 2));
-  placed.mirrors.push_back({-1, {0, 0}, {0, 0}, 0.5, {1, 1, 1}});
-  placed.mirrors.push_back({-2, {0, 0}, {0, 0}, 0.25, {1, 1, 1}});
+  placed.mirrors.push_back({-1, {0, 0}, {0, 0}, {0.5, 0.5, 0.5}});
+  placed.mirrors.push_back({-2, {0, 0}, {0, 0}, {0.25, 0.25, 0.25}});
   const TraceScene scene = prepare(placed);
   FollowOptions options;
   options.record_word = true;

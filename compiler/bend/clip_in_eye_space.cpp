@@ -1,19 +1,19 @@
-// Cutting comes after splitting: an edge of a wall that two copies share must be split alike, even if one of them is cut there and the
-// other is not.
+// Clipping comes after splitting: an edge of a wall that two copies share must be split alike in both, even if one of them is clipped there
+// and the other is not.
 //
-// After bending rays from the eye are straight, and a polyline's rays fill planes. (Before it, a sill is no plane but in E²: the rays
-// through the points of a wall at one height are neither a geodesic surface nor linear in the parts' own coordinates.)
+// After bending, rays from the eye are straight, and the rays through a polyline fill planes. (Before bending, the rays through the points
+// of a wall at one height form no plane except in E²: they are neither a geodesic surface nor linear in barycentric coordinates.)
 //
-// No new vertex depends on the way to it: it lies on an edge and one plane, or on a triangle and the ray in which two planes meet. So
-// neighbouring triangles, and the copies on both sides of a sill, make the same ones.
-#include "compiler/bend/cut_as_seen.h"
+// No new vertex depends on the order of the cuts: it is determined by an edge and one plane, or by a triangle and the ray in which two
+// planes meet. So neighbouring triangles, and the copies on both sides of a height bound, make the same vertices.
+#include "compiler/bend/clip_in_eye_space.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
-#include "compiler/cover/sill.h"
+#include "compiler/cover/height_bounds.h"
 
 namespace orbc::bend {
 namespace {
@@ -21,27 +21,28 @@ namespace {
 using cover::Bearing;
 using geometry::Vector3;
 
-constexpr double kOnPlane = 4e-7;   // radians: positions are floats
-constexpr double kWidest = 0.5;     // cosine of the widest piece of a polyline
-constexpr int kMaxSegmentHalvings = 12;        // halvings
+constexpr double kOnPlaneRadians = 4e-7;   // positions are floats
+constexpr double kMinSegmentCosine = 0.5;  // of the angle of one segment of a polyline
+constexpr int kMaxSegmentHalvings = 12;
+constexpr std::size_t kBatch = 512;  // copies that are stored twice at a time
 
-/// A plane through the eye.
+/// A plane through the eye: upright, or inclined and through one segment of a polyline.
 struct Plane {
-  Vector3 normal;                   // slopes: upwards; upright: to the left
-  int sill = -1;                    // −1: border of the wedge
-  int at = 0;                       // slopes: from the polyline's vertex `at` to the next; upright: through vertex `at`
+  Vector3 normal;  // inclined: upwards; upright: to the left
+  int bound = -1;  // index of the height bound; −1: a border of the wedge
+  int vertex = 0;  // of the polyline: the one on the upright plane, or the first of the segment
   bool upright = false;
 };
 
-/// The borders of one copy's wedge, and its sills as polylines.
-class Planes {
+/// The borders of a copy's wedge, and its height bounds as polylines.
+class CutPlanes {
  public:
-  Planes(const cover::Copy& copy, geometry::Space space, const place::Eye& eye, double tolerance_px)
+  CutPlanes(const cover::Copy& copy, geometry::Space space, const place::Eye& eye, double tolerance_px)
       : space_(space), eye_z_(eye.z), tolerance_(tolerance_px / place::pixels_per_radian(eye)) {
     for (const Bearing& b : {copy.wedge->from, copy.wedge->to}) planes.push_back({{-b.y, b.x, 0}, -1, 0, true});
-    for (std::size_t i = 0; i < copy.sills.size(); ++i) {
+    for (std::size_t i = 0; i < copy.height_bounds.size(); ++i) {
       rays_.emplace_back();
-      sill_ = &copy.sills[i];
+      bound_ = &copy.height_bounds[i];
       add(copy.wedge->from);
       refine(copy.wedge->from, copy.wedge->to, 0);
       const auto& rays = rays_.back();
@@ -53,17 +54,17 @@ class Planes {
     }
   }
 
-  static constexpr int kFrom = 0, kTo = 1;   // the wedge's
-  [[nodiscard]] int sectors(std::size_t sill) const { return static_cast<int>(rays_[sill].size()) - 1; }
-  [[nodiscard]] int slope(std::size_t sill, int sector) const { return first_[sill] + 2 * sector; }
-  /// Between a sector and the next.
-  [[nodiscard]] int border(std::size_t sill, int sector) const { return first_[sill] + 2 * sector + 1; }
+  static constexpr int kFrom = 0, kTo = 1;  // the borders of the wedge
+  [[nodiscard]] int segment_count(std::size_t bound) const { return static_cast<int>(rays_[bound].size()) - 1; }
+  [[nodiscard]] int slope_plane(std::size_t bound, int segment) const { return first_[bound] + 2 * segment; }
+  /// Between a segment and the next one.
+  [[nodiscard]] int upright_plane(std::size_t bound, int segment) const { return first_[bound] + 2 * segment + 1; }
 
   /// The direction in which two planes meet.
   [[nodiscard]] Vector3 ray(int a, int b) const {
     const Plane *p = &planes[static_cast<std::size_t>(a)], *q = &planes[static_cast<std::size_t>(b)];
-    if (p->sill >= 0 && p->sill == q->sill && p->upright != q->upright)
-      return rays_[static_cast<std::size_t>(p->sill)][static_cast<std::size_t>(p->upright ? p->at : q->at)];
+    if (p->bound >= 0 && p->bound == q->bound && p->upright != q->upright)
+      return rays_[static_cast<std::size_t>(p->bound)][static_cast<std::size_t>(p->upright ? p->vertex : q->vertex)];
     const auto key = [](const Plane& plane) { return std::tie(plane.normal.x, plane.normal.y, plane.normal.z); };
     if (key(*q) < key(*p)) std::swap(p, q);
     return cross(p->normal, q->normal);
@@ -72,11 +73,11 @@ class Planes {
   std::vector<Plane> planes;
 
  private:
-  void add(const Bearing& b) { rays_.back().push_back({b.x, b.y, cover::slope_of(space_, *sill_, b, eye_z_)}); }
+  void add(const Bearing& b) { rays_.back().push_back({b.x, b.y, cover::slope_of(space_, *bound_, b, eye_z_)}); }
 
   void refine(const Bearing& from, const Bearing& to, int depth) {
-    const Bearing middle = cover::spread({from, to}, 3)[1];
-    if (depth < kMaxSegmentHalvings && !straight(from, to)) {
+    const Bearing middle = cover::sample_bearings({from, to}, 3)[1];
+    if (depth < kMaxSegmentHalvings && !is_straight(from, to)) {
       refine(from, middle, depth + 1);
       refine(middle, to, depth + 1);
       return;
@@ -84,13 +85,14 @@ class Planes {
     add(to);
   }
 
-  /// Whether the plane through the rays at both ends is the sill's surface between them, within the tolerance.
-  [[nodiscard]] bool straight(const Bearing& from, const Bearing& to) const {
-    if (from.x * to.x + from.y * to.y < kWidest) return false;
+  /// Whether the plane through the rays at both ends is the surface of the bound between them, within the tolerance.
+  [[nodiscard]] bool is_straight(const Bearing& from, const Bearing& to) const {
+    if (from.x * to.x + from.y * to.y < kMinSegmentCosine) return false;
     if (space_ == geometry::Space::euclidean) return true;
-    const double s0 = cover::slope_of(space_, *sill_, from, eye_z_), s1 = cover::slope_of(space_, *sill_, to, eye_z_), all = turn(from, to);
-    for (const Bearing& b : cover::spread({from, to}, 5)) {
-      const double s = cover::slope_of(space_, *sill_, b, eye_z_), flat = (s0 * turn(b, to) + s1 * turn(from, b)) / all;
+    const double s0 = cover::slope_of(space_, *bound_, from, eye_z_), s1 = cover::slope_of(space_, *bound_, to, eye_z_),
+                 all = cross(from, to);
+    for (const Bearing& b : cover::sample_bearings({from, to}, 5)) {
+      const double s = cover::slope_of(space_, *bound_, b, eye_z_), flat = (s0 * cross(b, to) + s1 * cross(from, b)) / all;
       if (std::fabs(s - flat) > tolerance_ * (1 + s * s)) return false;
     }
     return true;
@@ -98,32 +100,33 @@ class Planes {
 
   geometry::Space space_;
   double eye_z_, tolerance_;
-  const cover::Sill* sill_ = nullptr;
-  std::vector<std::vector<Vector3>> rays_;   // by sill
-  std::vector<int> first_;                   // its first plane
+  const cover::HeightBound* bound_ = nullptr;
+  std::vector<std::vector<Vector3>> rays_;  // by bound: the vertices of its polyline
+  std::vector<int> first_;                  // by bound: its first plane
 };
 
 struct Vertex {
-  Vector3 p;                        // from the eye
+  Vector3 p;  // from the eye
   std::array<double, 2> uv{};
-  int corner = -1;                  // of the triangle
-  int edge = -1;                    // joins the corners `edge` and edge + 1
-  int on[2] = {-1, -1};             // planes
+  int corner = -1;       // a corner of the triangle
+  int edge = -1;         // on the edge between the corners `edge` and edge + 1
+  int on[2] = {-1, -1};  // planes on which it lies
 };
 using Polygon = std::vector<Vertex>;
 
-/// Cuts the triangles of one copy and writes what is left.
+/// Clips the triangles of one copy. Invariant: a vertex that several triangles share is written once.
 class Cutter {
  public:
-  Cutter(const BentCover& from, const cover::Copy& copy, const Planes& planes, double eye_z, BentCover& to)
-      : from_(from), copy_(copy), planes_(planes), eye_{0, 0, eye_z}, to_(to) {}
+  Cutter(const BentCover& from, const cover::Copy& copy, const CutPlanes& planes, double eye_z)
+      : from_(from), copy_(copy), planes_(planes), eye_{0, 0, eye_z} {}
 
-  void run(const BentRange& range) {
-    const std::size_t first_vertex = to_.positions.size(), first_index = to_.indices.size();
+  /// Makes: a cover of this copy alone.
+  BentCover run(const BentRange& range) {
     first_vertex_ = range.first_vertex;
     given_.assign(range.vertex_count, -1);
     for (std::size_t i = 0; i < range.index_count; i += 3) cut(&from_.indices[range.first_index + i]);
-    to_.copies.push_back({first_vertex, to_.positions.size() - first_vertex, first_index, to_.indices.size() - first_index});
+    to_.copies.push_back({0, to_.positions.size(), 0, to_.indices.size()});
+    return std::move(to_);
   }
 
  private:
@@ -136,46 +139,50 @@ class Cutter {
       corners_[k] = {Vector3{p[0], p[1], p[2]} - eye_, {uv[0], uv[1]}, k, -1, {-1, -1}};
       whole.push_back(corners_[k]);
     }
-    for (const auto& [border, side] : {std::pair(Planes::kFrom, 1.0), std::pair(Planes::kTo, -1.0)}) {
-      if (outside(whole, border, side)) return;
-      if (outside(whole, border, -side)) continue;
+    for (const auto& [border, side] : {std::pair(CutPlanes::kFrom, 1.0), std::pair(CutPlanes::kTo, -1.0)}) {
+      if (is_outside(whole, border, side)) return;
+      if (is_outside(whole, border, -side)) continue;
       whole = clipped(whole, border, side);
       if (whole.size() < 3) return;
     }
-    std::vector<Polygon> pieces{std::move(whole)}, next;
-    for (std::size_t sill = 0; sill < copy_.sills.size(); ++sill) {
-      next.clear();
-      for (const Polygon& piece : pieces) cut(piece, sill, next);
-      std::swap(pieces, next);
+    std::vector<Polygon> pieces{std::move(whole)};
+    for (std::size_t bound = 0; bound < copy_.height_bounds.size(); ++bound) {
+      std::vector<Polygon> next;
+      for (const Polygon& piece : pieces)
+        for (Polygon& part : within_bound(piece, bound)) next.push_back(std::move(part));
+      pieces = std::move(next);
     }
-    own_.clear();
+    of_triangle_.clear();
     for (const Polygon& piece : pieces) write(piece);
   }
 
-  void cut(Polygon rest, std::size_t sill, std::vector<Polygon>& out) const {
-    const double side = copy_.sills[sill].above ? 1 : -1;
-    for (int sector = 0; sector < planes_.sectors(sill) && rest.size() > 2; ++sector) {
-      const bool last = sector + 1 == planes_.sectors(sill);
-      Polygon here = last ? rest : clipped(rest, planes_.border(sill, sector), -1);
-      if (!last) rest = clipped(rest, planes_.border(sill, sector), 1);
-      if (here.size() > 2) here = clipped(here, planes_.slope(sill, sector), side);
-      if (here.size() > 2) out.push_back(std::move(here));
+  /// What a height bound leaves of a polygon, segment by segment.
+  [[nodiscard]] std::vector<Polygon> within_bound(Polygon rest, std::size_t bound) const {
+    std::vector<Polygon> pieces;
+    const double side = copy_.height_bounds[bound].above ? 1 : -1;
+    for (int segment = 0; segment < planes_.segment_count(bound) && rest.size() > 2; ++segment) {
+      const bool last = segment + 1 == planes_.segment_count(bound);
+      Polygon here = last ? rest : clipped(rest, planes_.upright_plane(bound, segment), -1);
+      if (!last) rest = clipped(rest, planes_.upright_plane(bound, segment), 1);
+      if (here.size() > 2) here = clipped(here, planes_.slope_plane(bound, segment), side);
+      if (here.size() > 2) pieces.push_back(std::move(here));
     }
+    return pieces;
   }
 
   [[nodiscard]] double value(const Vertex& v, int plane) const {
     if (v.on[0] == plane || v.on[1] == plane) return 0;
     const Plane& p = planes_.planes[static_cast<std::size_t>(plane)];
     const double value = dot(p.normal, v.p);
-    return p.upright && std::fabs(value) <= kOnPlane * (std::fabs(v.p.x) + std::fabs(v.p.y)) ? 0 : value;
+    return p.upright && std::fabs(value) <= kOnPlaneRadians * (std::fabs(v.p.x) + std::fabs(v.p.y)) ? 0 : value;
   }
 
-  /// Whether no corner lies on the side of the plane.
-  [[nodiscard]] bool outside(const Polygon& polygon, int plane, double side) const {
+  /// Whether no corner lies on this side of the plane.
+  [[nodiscard]] bool is_outside(const Polygon& polygon, int plane, double side) const {
     return std::none_of(polygon.begin(), polygon.end(), [&](const Vertex& v) { return side * value(v, plane) > 0; });
   }
 
-  /// Sutherland–Hodgman; what only touches the plane is nothing.
+  /// Sutherland–Hodgman. A polygon that only touches the plane from the other side becomes empty.
   [[nodiscard]] Polygon clipped(const Polygon& polygon, int plane, double side) const {
     Polygon inside;
     bool any = false;
@@ -199,22 +206,22 @@ class Cutter {
       if (lies_on_edge(a, edge) && lies_on_edge(b, edge)) return on_edge(edge, plane);
     for (const int other : a.on)
       if (other >= 0 && (other == b.on[0] || other == b.on[1])) return on_ray(a, b, plane, other);
-    return mixed(a, b, value(a, plane) / (value(a, plane) - value(b, plane)));
+    return lerp(a, b, value(a, plane) / (value(a, plane) - value(b, plane)));
   }
 
-  static Vertex mixed(const Vertex& a, const Vertex& b, double t) {
+  static Vertex lerp(const Vertex& a, const Vertex& b, double t) {
     Vertex v;
     v.p = a.p + t * (b.p - a.p);
     for (int k = 0; k < 2; ++k) v.uv[k] = a.uv[k] + t * (b.uv[k] - a.uv[k]);
     return v;
   }
 
-  /// From the edge's ends, in an order that both its triangles know.
+  /// Computed from the ends of the edge, in an order that does not depend on the triangle.
   [[nodiscard]] Vertex on_edge(int edge, int plane) const {
     const Vertex *a = &corners_[edge], *b = &corners_[(edge + 1) % 3];
     if (std::tie(b->p.x, b->p.y, b->p.z) < std::tie(a->p.x, a->p.y, a->p.z)) std::swap(a, b);
     const double va = value(*a, plane), vb = value(*b, plane);
-    Vertex v = mixed(*a, *b, va / (va - vb));
+    Vertex v = lerp(*a, *b, va / (va - vb));
     v.edge = edge;
     v.on[0] = plane;
     return v;
@@ -224,8 +231,8 @@ class Cutter {
     const Vector3 &p = corners_[0].p, &q = corners_[1].p, &r = corners_[2].p;
     const Vector3 normal = cross(q - p, r - p), ray = planes_.ray(plane, other);
     const double t = dot(normal, p) / dot(normal, ray), scale = std::max(length(a.p), length(b.p));
-    Vertex v = mixed(a, b, value(a, plane) / (value(a, plane) - value(b, plane)));
-    // A triangle seen from its edge meets no ray in one point.
+    Vertex v = lerp(a, b, value(a, plane) / (value(a, plane) - value(b, plane)));
+    // A triangle that the eye sees edge-on meets no ray in one point.
     if (std::isfinite(t) && length(t * ray - v.p) < 1e-4 * scale) v.p = t * ray;
     v.on[0] = std::min(plane, other);
     v.on[1] = std::max(plane, other);
@@ -254,12 +261,12 @@ class Cutter {
     const std::array<int, 2> planes{v.on[0], v.on[1]};
     if (v.edge >= 0) {
       const auto [a, b] = std::minmax(triangle_[v.edge], triangle_[(v.edge + 1) % 3]);
-      const auto [known, is_new] = on_edges_.try_emplace({a, b, planes[0]}, 0);
+      const auto [known, is_new] = of_edges_.try_emplace({a, b, planes[0]}, 0);
       if (is_new) known->second = add(v);
       return known->second;
     }
     if (planes[0] < 0) return add(v);
-    const auto [known, is_new] = own_.try_emplace(planes, 0);
+    const auto [known, is_new] = of_triangle_.try_emplace(planes, 0);
     if (is_new) known->second = add(v);
     return known->second;
   }
@@ -273,18 +280,18 @@ class Cutter {
 
   const BentCover& from_;
   const cover::Copy& copy_;
-  const Planes& planes_;
+  const CutPlanes& planes_;
   Vector3 eye_;
-  BentCover& to_;
+  BentCover to_;
   std::size_t first_vertex_ = 0;
   const std::uint32_t* triangle_ = nullptr;
   Vertex corners_[3];
-  std::vector<std::int64_t> given_;                                             // new index of the copy's vertices
-  std::map<std::tuple<std::uint32_t, std::uint32_t, int>, std::uint32_t> on_edges_;
-  std::map<std::array<int, 2>, std::uint32_t> own_;                             // of the triangle
+  std::vector<std::int64_t> given_;  // by vertex of the copy: its new index, or −1
+  std::map<std::tuple<std::uint32_t, std::uint32_t, int>, std::uint32_t> of_edges_;
+  std::map<std::array<int, 2>, std::uint32_t> of_triangle_;  // by planes, of this triangle
 };
 
-/// Adds a piece of one cover, with its triangles, to another.
+/// Adds one copy of a cover to another cover.
 void append(const BentCover& from, const BentRange& range, BentCover& to) {
   const std::size_t first_vertex = to.positions.size(), first_index = to.indices.size();
   const auto piece = [](const auto& all, std::size_t first, std::size_t count) {
@@ -302,10 +309,9 @@ void append(const BentCover& from, const BentRange& range, BentCover& to) {
 
 }  // namespace
 
-BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, const place::Eye& eye, double tolerance_px,
-                      const Executor& executor) {
+BentCover clip_in_eye_space(BentCover cover, std::span<const cover::Copy> copies, const place::Eye& eye, double tolerance_px,
+                            const Executor& executor) {
   if (std::none_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.wedge.has_value(); })) return cover;
-  constexpr std::size_t kTogether = 512;   // copies that are held twice
   BentCover cut;
   cut.error_bound_px = cover.error_bound_px;
   cut.split_parts = cover.split_parts;
@@ -313,13 +319,13 @@ BentCover cut_as_seen(BentCover cover, const std::vector<cover::Copy>& copies, c
   cut.uv.reserve(cover.uv.size());
   cut.indices.reserve(cover.indices.size());
   cut.copies.reserve(copies.size());
-  for (std::size_t from = 0; from < copies.size(); from += kTogether) {
-    std::vector<BentCover> pieces(std::min(kTogether, copies.size() - from));
+  for (std::size_t from = 0; from < copies.size(); from += kBatch) {
+    std::vector<BentCover> pieces(std::min(kBatch, copies.size() - from));
     executor(pieces.size(), [&](std::size_t i) {
       const cover::Copy& copy = copies[from + i];
       if (!copy.wedge) return;
-      const Planes planes(copy, eye.room_from_eye.space, eye, tolerance_px);
-      Cutter(cover, copy, planes, eye.z, pieces[i]).run(cover.copies[from + i]);
+      const CutPlanes planes(copy, eye.room_from_eye.space, eye, tolerance_px);
+      pieces[i] = Cutter(cover, copy, planes, eye.z).run(cover.copies[from + i]);
     });
     for (std::size_t i = 0; i < pieces.size(); ++i)
       if (copies[from + i].wedge) append(pieces[i], pieces[i].copies.front(), cut);

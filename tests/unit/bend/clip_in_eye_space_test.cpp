@@ -1,4 +1,4 @@
-#include "compiler/bend/cut_as_seen.h"
+#include "compiler/bend/clip_in_eye_space.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -112,7 +112,7 @@ TEST_CASE("neighbouring wedges cut what they share at the same vertices", "[bend
   for (std::size_t i = 0; i + 1 < borders.size(); ++i) copies.push_back(copy_in(borders[i], borders[i + 1]));
   constexpr int cells = 9;
   const BentCover whole = sheets(1, cells);
-  const BentCover cut = cut_as_seen(sheets(copies.size(), cells), copies, eye(), 0.25, serial_executor());
+  const BentCover cut = clip_in_eye_space(sheets(copies.size(), cells), copies, eye(), 0.25, serial_executor());
   REQUIRE(cut.copies.size() == copies.size());
   CHECK(seen(cut) == Approx(seen(whole)).epsilon(1e-6));
   // Nothing but the sheet's own border is open; each cut meets it twice.
@@ -121,32 +121,34 @@ TEST_CASE("neighbouring wedges cut what they share at the same vertices", "[bend
     for (std::size_t i = 0; i < cut.copies[c].vertex_count; ++i) {
       const auto& p = cut.positions[cut.copies[c].first_vertex + i];
       const double far = std::hypot(p[0], p[1]);
-      CHECK(turn(copies[c].wedge->from, cover::Bearing{p[0], p[1]}) > -1e-6 * far);
-      CHECK(turn(copies[c].wedge->to, cover::Bearing{p[0], p[1]}) < 1e-6 * far);
+      CHECK(cross(copies[c].wedge->from, cover::Bearing{p[0], p[1]}) > -1e-6 * far);
+      CHECK(cross(copies[c].wedge->to, cover::Bearing{p[0], p[1]}) < 1e-6 * far);
       // Places in the atlas are cut along.
       CHECK(cut.uv[cut.copies[c].first_vertex + i][0] == Approx(p[1]).margin(1e-5));
     }
 }
 
-TEST_CASE("a sill parts what is seen above it from what is seen below", "[bend]") {
+TEST_CASE("a height bound divides what is seen above it from what is seen below", "[bend]") {
   // The line x = 1, or the geodesic through (1, 0) across it.
   const Space space = GENERATE(Space::euclidean, Space::hyperbolic);
   auto looking = eye();
   looking.room_from_eye = geometry::identity(space);
-  cover::Sill sill{space == Space::euclidean ? geometry::Line{-1, 1, 0} : geometry::Line{-std::sinh(1.0), std::cosh(1.0), 0}, 0, 0.7, true};
+  cover::HeightBound bound{space == Space::euclidean ? geometry::Line{-1, 1, 0} : geometry::Line{-std::sinh(1.0), std::cosh(1.0), 0}, 0,
+                           0.7, true};
   std::vector<cover::Copy> copies(2, copy_in(-40, 40));
-  copies[0].sills = {sill};
-  sill.above = false;
-  copies[1].sills = {sill};
-  const auto whole = cut_as_seen(sheets(1, 8), {copy_in(-40, 40)}, looking, 0.25, serial_executor());
-  const auto cut = cut_as_seen(sheets(2, 8), copies, looking, 0.25, serial_executor());
+  copies[0].height_bounds = {bound};
+  bound.above = false;
+  copies[1].height_bounds = {bound};
+  const std::vector<cover::Copy> one{copy_in(-40, 40)};
+  const auto whole = clip_in_eye_space(sheets(1, 8), one, looking, 0.25, serial_executor());
+  const auto cut = clip_in_eye_space(sheets(2, 8), copies, looking, 0.25, serial_executor());
   CHECK(seen(cut) == Approx(seen(whole)).epsilon(1e-6));
   // The same vertices on both sides: nothing is open but the border of the whole.
   CHECK(open_edges(cut).length == Approx(open_edges(whole).length).epsilon(1e-6));
   for (std::size_t c = 0; c < 2; ++c)
     for (std::size_t i = 0; i < cut.copies[c].vertex_count; ++i) {
       const auto& p = cut.positions[cut.copies[c].first_vertex + i];
-      const double far = std::hypot(p[0], p[1]), slope = slope_of(space, sill, {p[0] / far, p[1] / far}, kEyeZ);
+      const double far = std::hypot(p[0], p[1]), slope = slope_of(space, bound, {p[0] / far, p[1] / far}, kEyeZ);
       CHECK((c == 0 ? 1 : -1) * ((p[2] - kEyeZ) / far - slope) > -1e-3);
     }
 }
@@ -157,8 +159,8 @@ TEST_CASE("who cuts when changes nothing", "[bend]") {
     copies.push_back(copy_in(-60 + 0.05 * i, -50 + 0.07 * i));
     if (i % 3 == 0) copies.back().wedge.reset();
   }
-  const auto one = cut_as_seen(sheets(copies.size(), 2), copies, eye(), 0.25, serial_executor());
-  const auto two = cut_as_seen(sheets(copies.size(), 2), copies, eye(), 0.25, odd_executor());
+  const auto one = clip_in_eye_space(sheets(copies.size(), 2), copies, eye(), 0.25, serial_executor());
+  const auto two = clip_in_eye_space(sheets(copies.size(), 2), copies, eye(), 0.25, odd_executor());
   CHECK(one.positions == two.positions);
   CHECK(one.uv == two.uv);
   CHECK(one.indices == two.indices);
@@ -185,22 +187,22 @@ TEST_CASE("what reaches into a wedge is whole, and nothing that does is missing"
       mesh.triangles.push_back({id(0, 0), id(1, 1), id(0, 1)});
     }
   const Uv uv(mesh.floor.size());
-  const PartNet net = part_net(space, mesh, 0);
+  const EdgeMesh net = edge_mesh(space, mesh, 0);
   const LogMap map{space, geometry::matrix(geometry::rotation(space, 0.4)), sheet};
   for (const double from : {-20.0, 3.0, 20.0, 31.0}) {
     const cover::Wedge wedge{bearing(from + (sheet == 1 ? 180 : 0)), bearing(from + 8 + (sheet == 1 ? 180 : 0))};
-    const auto part = reaching(wedge, map, net, uv, 0.01);
+    const auto part = triangles_touching(wedge, map, net, uv, 0.01);
     CHECK(part->mesh.triangles.size() < mesh.triangles.size());
     CHECK(part->uv.size() == part->mesh.floor.size());
     // Cut to the wedge both give the same, corner by corner.
-    const auto corners = [](const OwnPart& of) {
+    const auto corners = [](const ClippedPart& of) {
       std::vector<std::array<double, 4>> all;
       for (const auto& t : of.mesh.triangles)
         for (const auto v : t) all.push_back({of.mesh.floor[v].w, of.mesh.floor[v].x, of.mesh.floor[v].y, of.mesh.z[v]});
       return all;
     };
-    CHECK(corners(*clipped(wedge, map, part->net, part->uv)) == corners(*clipped(wedge, map, net, uv)));
+    CHECK(corners(*clipped(wedge, map, part->part, part->uv)) == corners(*clipped(wedge, map, net, uv)));
     // A wider margin keeps more.
-    CHECK(reaching(wedge, map, net, uv, 0.2)->mesh.triangles.size() > part->mesh.triangles.size());
+    CHECK(triangles_touching(wedge, map, net, uv, 0.2)->mesh.triangles.size() > part->mesh.triangles.size());
   }
 }

@@ -1,5 +1,5 @@
 // A copy is the room's circumscribed circle times its height; at distance d it is 2·asin(sinκ R / sinκ d) wide.
-#include "compiler/cover/size.h"
+#include "compiler/cover/projected_size.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace orbc::cover {
 
 using geometry::Space;
 
-CopySize::CopySize(const place::PlacedRoom& room, const place::Eye& eye)
+ProjectedSize::ProjectedSize(const place::PlacedRoom& room, const place::Eye& eye)
     : space_(room.room.space),
       radius_(room.room.circumradius),
       height_(room.height),
@@ -19,14 +19,14 @@ CopySize::CopySize(const place::PlacedRoom& room, const place::Eye& eye)
       pixels_(place::pixels_per_radian(eye)),
       eye_from_cover_(inverse(eye.room_from_eye)) {}
 
-double CopySize::at(double d) const {
+double ProjectedSize::at(double d) const {
   if (d <= radius_ || space_ == Space::spherical) return std::numeric_limits<double>::infinity();
   const double width = 2 * math::asin(std::min(1.0, geometry::sin_k(space_, radius_) / geometry::sin_k(space_, d)));
   const double height = math::atan((height_ - eye_z_) / (d - radius_)) + math::atan(eye_z_ / (d - radius_));
   return pixels_ * std::min(width, height);
 }
 
-double CopySize::of(const geometry::Isometry& cover_from_room) const {
+double ProjectedSize::of(const geometry::Isometry& cover_from_room) const {
   const geometry::Ambient centre = eye_from_cover_ * cover_from_room * geometry::Point();
   return at(geometry::arc_k(space_, centre.w, math::hypot(centre.x, centre.y)));
 }
