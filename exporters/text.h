@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "compiler/base/utf8.h"
+
 namespace orbc::exporters {
 
 /// Writes text quickly: numbers go through a small buffer that stays in the cache and from there to the string in large pieces.
@@ -62,22 +64,10 @@ class Pen {
   char buffer_[32768];
 };
 
-/// Length of the well-formed UTF-8 sequence at the start of `s` (Unicode, table 3-7), or 0.
+/// Length of the UTF-8 character at the start of `s`, in bytes; 0 when there is none.
 [[nodiscard]] inline std::size_t utf8_length(std::string_view s) {
-  const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0u; };
-  const auto tail = [&](std::size_t i) { return (byte(i) & 0xC0u) == 0x80u; };
-  const unsigned lead = byte(0), second = byte(1);
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead <= 0xDF) return tail(1) ? 2 : 0;
-  if (lead >= 0xE0 && lead <= 0xEF) {
-    const bool fits = (lead != 0xE0 || second >= 0xA0) && (lead != 0xED || second <= 0x9F);
-    return fits && tail(1) && tail(2) ? 3 : 0;
-  }
-  if (lead >= 0xF0 && lead <= 0xF4) {
-    const bool fits = (lead != 0xF0 || second >= 0x90) && (lead != 0xF4 || second <= 0x8F);
-    return fits && tail(1) && tail(2) && tail(3) ? 4 : 0;
-  }
-  return 0;
+  const auto character = decode_utf8(s);
+  return character ? character->length : 0;
 }
 
 /// The text on one line: control characters become spaces, so that it can stand in a `//` comment.

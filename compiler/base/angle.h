@@ -3,7 +3,7 @@
 
 namespace orbc {
 
-/// An angle; the unit is chosen where it is made or read, never guessed.
+/// An angle. Its unit is named wherever it is made or read.
 struct Angle {
   double radians = 0;
   [[nodiscard]] static constexpr Angle from_degrees(double degrees) { return {degrees * std::numbers::pi / 180}; }

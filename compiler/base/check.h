@@ -6,7 +6,7 @@
 
 namespace orbc {
 
-/// Prints what was compared and where, then aborts: a broken promise inside orbc itself is never a user's error.
+/// Prints the failed comparison and its place, then aborts. For errors of orbc itself, never for errors of the user.
 template <class A, class B>
 [[noreturn]] void check_failed(const char* expression, const A& left, const B& right, const char* file, int line) {
   fmt::print(stderr, "orbc: internal error at {}:{}: {} (left {}, right {})\n", file, line, expression, left, right);

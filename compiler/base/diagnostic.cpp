@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "compiler/base/utf8.h"
+
 namespace orbc {
 namespace {
 
@@ -14,34 +16,16 @@ Diagnostic make(Severity severity, std::string code, std::string message, std::s
   return {severity, std::move(code), std::move(span), std::move(message), std::move(hint)};
 }
 
-// The length of the well-formed UTF-8 sequence at `at`, or 0. Well-formed as in Table 3-7 of the Unicode Standard: no overlong
-// forms, no surrogates, nothing above U+10FFFF; C1 controls (C2 80 … C2 9F) are turned away too, terminals obey them.
-std::size_t sequence_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(at);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xC2 && lead < 0xE0 ? 2
-                             : lead >= 0xE0 && lead < 0xF0 ? 3
-                             : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                           : 0;
-  if (length == 0 || at + length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(at + i) & 0xC0) != 0x80) return 0;
-  if (length == 1) return 1;
-  const unsigned char second = byte(at + 1);
-  const unsigned char low = lead == 0xC2 || lead == 0xE0 ? 0xA0
-                            : lead == 0xF0               ? 0x90
-                                                         : 0x80,
-                      high = lead == 0xED   ? 0x9F
-                             : lead == 0xF4 ? 0x8F
-                                            : 0xBF;
-  return second < low || second > high ? 0 : length;
+// The length of the character at `at`; 0 for bytes that are no UTF-8, and for control characters of Latin-1, which terminals obey.
+std::size_t printable_length(std::string_view text, std::size_t at) {
+  const auto character = decode_utf8(text, at);
+  return !character || (character->code >= 0x80 && character->code < 0xA0) ? 0 : character->length;
 }
 
 std::vector<std::string> shown_characters(std::string_view line) {
   std::vector<std::string> shown;
   for (std::size_t at = 0; at < line.size();) {
-    const std::size_t length = sequence_length(line, at);
+    const std::size_t length = printable_length(line, at);
     const auto byte = static_cast<unsigned char>(line[at]);
     if (line[at] == '\t') shown.emplace_back(" ");
     else if (length == 0 || byte < 0x20 || byte == 0x7F) shown.push_back(fmt::format("\\x{:02X}", byte));
@@ -77,7 +61,7 @@ std::string_view line_of(std::string_view text, std::size_t line) {
 }
 
 std::string quoted_line(const SourceSpan& span) {
-  // One character a column; the window keeps the caret in sight on machine-written lines.
+  // One character per column. Long lines are shown in a window around the caret.
   const std::vector<std::string> characters = shown_characters(line_of(span.source->text, span.line).substr(0, 100000));
   const std::size_t column = std::clamp<std::size_t>(span.column, 1, characters.size() + 1);
   const std::size_t first = column > kShownColumns ? column - kShownColumns / 2 : 1;
@@ -158,7 +142,10 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
     const std::size_t d = distance(word, candidate);
-    if (d < best_distance) best = candidate, best_distance = d;
+    if (d < best_distance) {
+      best = candidate;
+      best_distance = d;
+    }
   }
   return best;
 }

@@ -9,8 +9,8 @@ namespace orbc {
 
 enum class Severity { note, warning, error };
 
-/// One thing the author of a scene should know: what is wrong, where, and what to do.
-/// `code` is `room.what-is-wrong` and stands in schema/diagnostics.md.
+/// A message to the author of a scene: what is wrong, where, and what to do.
+/// `code` has the form `room.what-is-wrong`; schema/diagnostics.md explains it.
 struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;
@@ -26,12 +26,12 @@ using Diagnostics = std::vector<Diagnostic>;
 [[nodiscard]] Diagnostic make_note(std::string code, std::string message, std::string hint = {}, SourceSpan span = {});
 [[nodiscard]] bool has_error(const Diagnostics& diagnostics);
 
-/// Gives the diagnostics that carry no place yet the place `span`.
+/// Sets the span of those diagnostics that have none.
 [[nodiscard]] Diagnostics located(Diagnostics diagnostics, const SourceSpan& span);
 
-/// The text a terminal shows: `file:line:column: error[code] message`, the line itself, a caret below it, the hint.
-/// Long lines are cut around the caret; control bytes and bytes that are not UTF-8 are shown as `\xNN`,
-/// in the quoted line as in message and hint, which may quote the author too.
+/// The text for a terminal: `file:line:column: error[code] message`, the line itself, a caret below it, the hint.
+/// Long lines are cut around the caret. Control characters and bytes that are not UTF-8 become `\xNN`, in the line as well as in message
+/// and hint, which may quote the author.
 [[nodiscard]] std::string to_text(const Diagnostic& diagnostic);
 [[nodiscard]] std::string to_text(const Diagnostics& diagnostics);
 

@@ -1,7 +1,7 @@
 #pragma once
-// Elementary functions whose bits depend on nothing but their arguments. The C library's do: glibc chooses a variant by the processor (with
-// or without fused multiply-add), and versions differ, so that files made of the same scene would, too. These use only operations that
-// IEEE 754 rounds correctly, in one order. All of orbc's rooms call these and never the library's (scripts/check).
+// Elementary functions whose bits depend on their arguments only. Those of the C library depend on the processor (glibc chooses a variant
+// with or without fused multiply-add) and on the version of the library, so the same scene would give different files. These functions use
+// only operations that IEEE 754 rounds correctly, in one order. All rooms call these and never the library's (scripts/check).
 //
 // Error: below 1 ulp of the result, for all arguments unless said otherwise (measured: tan 0.97, others below 0.8;
 // tests/unit/base/elementary_test.cpp). Special values are those of C's Annex F; errno and floating-point flags are not promised.
@@ -10,14 +10,14 @@
 
 namespace orbc::math {
 
-/// Below 2^20 in absolute value; beyond, the argument is reduced by double's 2π: deterministic, but no more than that.
+/// The error bound holds for |x| < 2^20. Larger arguments are reduced by the double nearest to 2π, which is deterministic but not accurate.
 [[nodiscard]] double sin(double x);
 [[nodiscard]] double cos(double x);
 [[nodiscard]] double tan(double x);
 struct SineCosine {
   double sine, cosine;
 };
-/// The same bits as `sin` and `cos`, in one go.
+/// Both at once, with the same bits as `sin` and `cos`.
 [[nodiscard]] SineCosine sin_cos(double x);
 
 [[nodiscard]] double asin(double x);

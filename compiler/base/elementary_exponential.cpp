@@ -325,7 +325,10 @@ double asinh(double x) {
   if (!(size < kInfinite)) return x;
   if (size > 0x1p28) {
     LogParts parts = log_parts(size, 0);
-    parts.exact += 0x1.62e42fefa38p-1, parts.rest += 0x1.ef35793c7673p-45;
+    {
+      parts.exact += 0x1.62e42fefa38p-1;
+      parts.rest += 0x1.ef35793c7673p-45;
+    }
     return std::copysign(rounded(parts), x);
   }
   return std::copysign(log_of_pair(add({size, 0}, root_of_square_and_one(size))), x);
@@ -341,7 +344,8 @@ double atanh(double x) {
 }
 
 double detail::scaled_hypot(double x, double y) {
-  x = std::fabs(x), y = std::fabs(y);
+  x = std::fabs(x);
+  y = std::fabs(y);
   if (x == kInfinite || y == kInfinite) return kInfinite;
   const double most = x > y ? x : y;
   if (most == 0 || x != x || y != y) return x + y;

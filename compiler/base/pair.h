@@ -28,7 +28,7 @@ struct Pair {
   return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
 }
 
-// To about 2^-102.
+// Relative error: about 2^-102.
 [[nodiscard]] constexpr Pair add(const Pair& a, const Pair& b) {
   const Pair s = sum_of(a.high, b.high);
   return fast_sum_of(s.high, s.low + (a.low + b.low));

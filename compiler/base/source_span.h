@@ -5,7 +5,7 @@
 
 namespace orbc {
 
-/// A text that diagnostics can quote: a file's name as the user gave it, and its bytes.
+/// A text that diagnostics quote: the name of its file, as the user gave it, and its bytes.
 struct SourceText {
   std::string name;
   std::string text;

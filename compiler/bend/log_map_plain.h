@@ -34,7 +34,8 @@ inline float atan2_plain(float rho, float w) {
   return w < 0 ? (3.14159274f - angle) + -8.74227766e-8f : angle;
 }
 
-/// In: the matrix row by row; `base`, the distance at which the sheet begins, negative where the image lies in the opposite direction.
+/// Kernel. In: the matrix row by row; `base`, the distance at which the sheet begins, negative where the image lies in the opposite
+/// direction.
 inline void bend_one(int curvature, const double* m, float base, double w, double x, double y, float z, float* out) {
   const auto row = [&](int i) { return static_cast<float>(m[i] * w + (m[i + 1] * x + m[i + 2] * y)); };
   const float u = row(3), v = row(6), rho2 = u * u + v * v, rho = std::sqrt(rho2);

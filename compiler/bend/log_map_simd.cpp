@@ -1,6 +1,6 @@
 // The fast version of log_map.cpp. The matrix product must be computed in double (in float, cancellation near the eye and near the antipode
 // costs 250 and 1000 ulp); the arc length may be computed in float. Highway compiles this file once per instruction set and selects one at
-// run time.
+// run time. Kernel: columns and matrix are passed as pointers, one parameter each.
 //   H²: r = asinh ρ;   S²: r = atan2(ρ, w) + base;   the image is (x, y)·(r/ρ).
 // The polynomials interpolate at Chebyshev nodes; their relative errors are 5e-9 (asinh) and 3e-9 (atan2).
 // All instruction sets give the same bits, so that a file does not depend on the machine that compiled the scene: only operations that

@@ -24,8 +24,6 @@ Point point_from_disk(Space space, std::complex<double> z) {
 
 std::complex<double> gnomonic_from_point(const Point& p) { return {p.x / p.w, p.y / p.w}; }
 
-Point point_from_gnomonic(Space space, std::complex<double> z) { return normalised_point(space, {1, z.real(), z.imag()}); }
-
 std::complex<double> log_from_point(Space space, const Point& p) {
   const double rho = math::hypot(p.x, p.y);
   if (rho == 0) return {0, 0};

@@ -20,25 +20,26 @@ struct Isometry {
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 [[nodiscard]] Isometry identity(Space space);
-/// Counter-clockwise turn about the origin.
+/// Counter-clockwise rotation about the origin.
 [[nodiscard]] Isometry rotation(Space space, double radians);
-/// Moves the origin to P along their geodesic, without turning. P ≠ antipode of the origin.
+/// The translation along the geodesic from the origin to P that maps the origin to P. In: P is not the antipode of the origin.
 [[nodiscard]] Isometry translation_to(Space space, const Point& p);
-/// Moves along the geodesic through the origin in the direction (x, y) by its length |(x, y)|.
+/// The translation along the geodesic through the origin in the direction (x, y), by the length |(x, y)|.
 [[nodiscard]] Isometry translation_by(Space space, double x, double y);
 [[nodiscard]] Isometry reflection(Space space, const Line& line);
 
 /// target_from_middle * middle_from_source.
 [[nodiscard]] Isometry operator*(const Isometry& left, const Isometry& right);
 [[nodiscard]] Isometry inverse(const Isometry& map);
-/// Scales (a, b) back to |a|² + κ|b|² = 1 by correcting the larger entry; keeps products of thousands of factors isometric.
+/// Restores |a|² + κ|b|² = 1 by correcting the larger entry, so that products of thousands of factors stay isometries.
 [[nodiscard]] Isometry renormalised(const Isometry& map);
 
 [[nodiscard]] Point operator*(const Isometry& map, const Point& p);
 [[nodiscard]] Tangent operator*(const Isometry& map, const Tangent& v);
-/// The image of a line: value_at(map * line, map * X) = ± value_at(line, X), the sign such that left stays the image of left.
+/// The image of a line: value_at(map * line, map * X) = ± value_at(line, X). Its left side is the image of the left side of `line`.
 [[nodiscard]] Line operator*(const Isometry& map, const Line& line);
-/// The same map as a matrix on ambient vectors; for mapping many points. Error in H²: absolute entries of size e^d lose e^d ulp.
+/// The same map as a matrix on ambient vectors, for mapping many points.
+/// Error: H²: entries grow like e^d with the distance d that the map moves the origin, so coordinates lose up to e^d ulp.
 [[nodiscard]] Matrix3 matrix(const Isometry& map);
 [[nodiscard]] Ambient operator*(const Matrix3& m, const Ambient& v);
 

@@ -14,7 +14,7 @@ struct Line {
 
 /// The geodesic from P through Q. Undefined for equal or antipodal points.
 [[nodiscard]] Line line_through(Space space, const Point& p, const Point& q);
-/// The geodesic at P in direction V (left is V turned by +90°).
+/// The geodesic through P in direction V. Its left side is that of V rotated by +90°.
 [[nodiscard]] Line line_along(Space space, const Point& p, const Tangent& v);
 /// The unit covector nearest to `line`; H² lines with w² ≥ x² + y² do not exist and give NaN.
 [[nodiscard]] Line normalised_line(Space space, const Line& line);

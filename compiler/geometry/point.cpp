@@ -1,4 +1,4 @@
-// Formulas: design §2. One curvature parameter where the formula is one, three branches where rounding wants them.
+// Formulas: design §2. One formula for all curvatures, or three branches where rounding needs them.
 #include "compiler/geometry/point.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ Point normalised_point(Space space, const Ambient& v) {
     const double n = 1 / std::sqrt(v.w * v.w + v.x * v.x + v.y * v.y);
     return {n * v.w, n * v.x, n * v.y};
   }
-  const double rho = std::sqrt(v.x * v.x + v.y * v.y);  // not hypot: this is asked of every point of every edge that is bent
+  const double rho = std::sqrt(v.x * v.x + v.y * v.y);  // not hypot, for speed: bending normalises every point of every edge
   const double n = 1 / std::sqrt((v.w - rho) * (v.w + rho));
   const double x = n * v.x, y = n * v.y;
   return {std::sqrt(1 + x * x + y * y), x, y};

@@ -19,19 +19,19 @@ struct Point : Ambient {
   constexpr Point(double w_, double x_, double y_) : Ambient{w_, x_, y_} {}
 };
 
-/// A unit tangent of the floor at some point P: V_w² + κ… orthogonal to P, x² + y² + κ w² = 1.
+/// A unit tangent of the floor at some point P: x² + y² + κ w² = 1, and P_w V_w + κ(P_x V_x + P_y V_y) = 0 (E²: V_w = 0).
 struct Tangent : Ambient {
   constexpr Tangent() : Ambient{0, 1, 0} {}
   constexpr Tangent(double w_, double x_, double y_) : Ambient{w_, x_, y_} {}
 };
 
-/// A point of the room: where on the floor, and how high above it.
+/// A point of the room: its foot on the floor, and its height above it.
 struct Position {
   Point floor;
   double z = 0;
 };
 
-/// An ordinary vector: the tangent space of the eye (right-handed, z up), where bent meshes and cameras live.
+/// A vector of the tangent space of the eye (right-handed, z up), the coordinates of bent meshes and cameras.
 struct Vector3 {
   double x = 0, y = 0, z = 0;
 };
@@ -47,8 +47,7 @@ struct Vector3 {
 
 /// The ambient vector scaled back onto the surface. Undefined for vectors that are not time-like (H²) or have w = 0 (E²).
 [[nodiscard]] Point normalised_point(Space space, const Ambient& vector);
-/// The tangent at P nearest to `vector`: orthogonal to P and of length 1; cancels the drift of long walks. Source: performance study,
-/// pitfalls.
+/// The unit tangent at P nearest to `vector`. Removes the rounding errors that accumulate along a path of many segments.
 [[nodiscard]] Tangent normalised_tangent(Space space, const Point& at, const Ambient& vector);
 
 /// Intrinsic distance. Error: a few ulp of the stored coordinates; in H² absolute error grows like e^r with the distance r of the points

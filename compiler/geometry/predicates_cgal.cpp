@@ -1,4 +1,7 @@
-// The one file that knows CGAL's kernel: filtered exact signs of 3×3 determinants (Brönnimann, Burnikel, Pion 2001).
+// The only file that includes CGAL's kernel: filtered exact signs of 3×3 determinants (Brönnimann, Burnikel, Pion 2001).
+#if defined(__EMSCRIPTEN__) && !defined(CGAL_ALWAYS_ROUND_TO_NEAREST)
+#error "WebAssembly always rounds to nearest: without CGAL_ALWAYS_ROUND_TO_NEAREST, CGAL's filters give wrong signs and do not notice it"
+#endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include "compiler/geometry/predicates.h"
@@ -27,8 +30,8 @@ Containment contains(const std::vector<Point>& outline, const Point& x) {
 }
 
 bool is_convex(const std::vector<Point>& outline) {
-  // Every vertex on the left of (or on) every edge's line, and some vertex strictly left of each: then the edges bound the
-  // intersection of their half planes. Turning once around follows, since a curve that winds twice leaves some half plane.
+  // If every vertex lies to the left of (or on) the line of every edge, and some vertex strictly to the left of each, then the edges bound
+  // the intersection of their half planes. A curve that winds around twice leaves some half plane.
   const std::size_t n = outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     bool strict = false;

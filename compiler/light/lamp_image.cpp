@@ -52,8 +52,7 @@ MirroredSurfaces mirrored_surfaces(const place::PlacedRoom& room) {
   for (const place::PlacedMirror& m : room.mirrors) {
     if (m.wall >= 0) mirrors.walls[static_cast<std::size_t>(m.wall)] = true;
     else (m.wall == -1 ? mirrors.floor : mirrors.ceiling) = true;
-    mirrors.max_throughput =
-        std::max({mirrors.max_throughput, m.throughput.r, m.throughput.g, m.throughput.b});
+    mirrors.max_throughput = std::max({mirrors.max_throughput, m.throughput.r, m.throughput.g, m.throughput.b});
   }
   return mirrors;
 }

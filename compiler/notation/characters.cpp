@@ -1,20 +1,15 @@
 #include "compiler/notation/characters.h"
 
+#include "compiler/base/utf8.h"
+
 namespace orbc::notation {
 
 std::u32string characters_of(std::string_view text) {
   std::u32string characters;
   for (std::size_t i = 0; i < text.size();) {
-    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-    const std::size_t length = byte(i) < 0x80 ? 1 : byte(i) >= 0xC2 && byte(i) < 0xE0 ? 2 : byte(i) >= 0xE0 && byte(i) < 0xF0 ? 3 : 0;
-    bool whole = length > 0 && i + length <= text.size();
-    char32_t code = length == 1 ? byte(i) : length == 2 ? byte(i) & 0x1Fu : byte(i) & 0x0Fu;
-    for (std::size_t k = 1; whole && k < length; ++k) {
-      whole = (byte(i + k) & 0xC0) == 0x80;
-      code = code << 6 | (byte(i + k) & 0x3Fu);
-    }
-    characters += whole ? code : char32_t{0x110000} + byte(i);
-    i += whole ? length : 1;
+    const auto character = decode_utf8(text, i);
+    characters += character ? character->code : kFirstByteCode + static_cast<unsigned char>(text[i]);
+    i += character ? character->length : 1;
   }
   return characters;
 }

@@ -6,18 +6,21 @@ namespace orbc::notation {
 
 inline constexpr char32_t kInfinity = U'\u221E';
 
-/// The code points of UTF-8 text; bytes that are none stand for themselves above the range of Unicode, so that nothing matches them.
+/// Bytes that are no UTF-8 get codes from here on, above the range of Unicode.
+inline constexpr char32_t kFirstByteCode = 0x110000;
+
+/// The code points of a UTF-8 text; a byte that belongs to none becomes kFirstByteCode + byte.
 [[nodiscard]] std::u32string characters_of(std::string_view text);
 
-/// The character that is meant by one of another width or shape: ＊ ⋆ ★ are *, ２ is 2, − is -, a no-break space is a blank. Others are
-/// themselves.
+/// The plain form of a character of another width or shape: ＊ ⋆ ★ become *, ２ becomes 2, − becomes -, a no-break space becomes a blank.
+/// Other characters stay as they are.
 [[nodiscard]] char32_t plain(char32_t c);
 
-/// Plain characters as ASCII for translate.h: ∞ as "inf", Δ as "Delta", overlines as a minus before their digit, subscripts as letters and
-/// digits; what has no place there becomes '?'.
+/// Plain characters as ASCII, for translate.h: ∞ becomes "inf", Δ becomes "Delta", an overline becomes a minus before its digit, subscripts
+/// become letters and digits; every other character becomes '?'.
 [[nodiscard]] std::string ascii_of(const std::u32string& characters);
 
-/// The digit that stands raised: 2 for ²; −1 for other characters.
+/// The digit of a superscript: 2 for ²; −1 for other characters.
 [[nodiscard]] int raised_digit(char32_t c);
 
 }  // namespace orbc::notation

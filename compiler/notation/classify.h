@@ -5,7 +5,7 @@
 
 namespace orbc::notation {
 
-/// The space in which the room closes: the sign of χ.
+/// The space of constant curvature in which the room exists, by the sign of χ.
 /// In:          corners of any rational order.
 /// Exact:       rational arithmetic.
 /// Diagnostics: notation.bad-orbifold (one corner, two different ones, a spherical triangle of real corners that cannot close),

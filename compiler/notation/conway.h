@@ -4,7 +4,7 @@
 
 namespace orbc::notation {
 
-/// A symbol of Conway's orbifold notation, taken apart: wonder-rings, gyration points, mirror boundaries with their corners, cross-caps.
+/// The features of a symbol of Conway's orbifold notation: wonder-rings, gyration points, mirror boundaries with their corners, cross-caps.
 /// Order 0 stands for ∞.
 struct ConwaySymbol {
   int handles = 0;
@@ -18,7 +18,7 @@ struct ConwaySymbol {
 /// things (2008).
 [[nodiscard]] std::string usual_name(const ConwaySymbol& symbol);
 
-/// What keeps it from being kaleidoscopic: "it has gyration points of order 2, 2 and a cross-cap".
+/// The features that are not kaleidoscopic, as an object of "it has": "gyration points of order 2, 2 and a cross-cap".
 [[nodiscard]] std::string features(const ConwaySymbol& symbol);
 
 }  // namespace orbc::notation

@@ -8,13 +8,13 @@
 
 namespace orbc::notation {
 
-/// Told of each orbifold in canonical form and of its space; false ends the list.
+/// Called with each orbifold, in canonical form, and its space; returns false to end the list.
 using OrbifoldVisitor = std::function<bool(const Orbifold&, geometry::Space)>;
 
 /// Lists all good kaleidoscopic orbifolds with `corners` corners of order at most `max_order`, each once: the spherical ones, then the
 /// Euclidean, then the hyperbolic, lexicographically within each (the paper's Table 1). One corner means `*`, as there.
 /// Makes:       true when the list was not ended by the visitor.
-/// Memory:      independent of the count, which grows like max_order^corners/(2·corners): count_orbifolds tells it beforehand.
+/// Memory:      independent of the count, which grows like max_order^corners/(2·corners) (count_orbifolds).
 /// Diagnostics: notation.enumerate-out-of-range.
 [[nodiscard]] Result<bool> enumerate(int corners, int max_order, const OrbifoldVisitor& visit);
 

@@ -84,8 +84,8 @@ void multiply(Series& series, const std::map<int, int>& exponents, int sign) {
   }
 }
 
-// Φ_d divides a polynomial p exactly when p·Π(1 − t^(d/q)) over the primes q of d vanishes modulo 1 − t^d: the product is zero at all d-th
-// roots of unity but the primitive ones.
+// Φ_d divides a polynomial p exactly when p·Π(1 − t^(d/q)) over the primes q of d vanishes modulo 1 − t^d, because the product is zero at
+// all d-th roots of unity except the primitive ones.
 bool is_divisible(const Series& polynomial, int d) {
   const std::size_t order = static_cast<std::size_t>(d);
   Series rest(order);
@@ -113,7 +113,7 @@ std::vector<int> degrees(const std::vector<int>& orders) {
   return sorted[2] == 3 ? std::vector<int>{2, 3, 4} : sorted[2] == 4 ? std::vector<int>{2, 4, 6} : std::vector<int>{2, 6, 10};
 }
 
-// Π [d], cut off after `size` coefficients.
+// The first `size` coefficients of Π [d].
 Series finite_series(const std::vector<int>& orders, std::size_t size) {
   Series series(size);
   series[0] = 1;
@@ -121,7 +121,7 @@ Series finite_series(const std::vector<int>& orders, std::size_t size) {
   return series;
 }
 
-// D(t) of above up to t^(size−1), as power series: t^k/[k] = Σ (t^(jk) − t^(jk+1)).
+// D(t) up to t^(size−1), as a power series: t^k/[k] = Σ (t^(jk) − t^(jk+1)).
 std::vector<std::int64_t> steinberg_series(const std::vector<int>& orders, std::size_t size) {
   std::vector<std::int64_t> d(size);
   d[0] = 1;
@@ -195,7 +195,8 @@ std::optional<GrowthSeries> growth_series(const Orbifold& orbifold, int max_degr
     multiply(series.denominator, cyclotomic_exponents(d), -1);
     multiply(series.numerator, cyclotomic_exponents(d), -1);
   }
-  trim(series.numerator), trim(series.denominator);
+  trim(series.numerator);
+  trim(series.denominator);
   return series;
 }
 
@@ -228,7 +229,7 @@ Integer copies_up_to(const Orbifold& orbifold, int length) {
   return std::accumulate(copies.begin(), copies.end(), Integer(0));
 }
 
-/// By squaring: the library's has other bits on other machines.
+/// By squaring: the bits of the C library's function depend on the machine.
 static long double power_of(long double t, int k) {
   long double power = 1;
   for (; k > 0; k /= 2, t *= t)
@@ -242,7 +243,7 @@ std::optional<double> growth_rate(const Orbifold& orbifold) {
   if (space == Space::euclidean) return 1;
   // D falls from 1 at 0 through one zero in (0, 1): the reciprocal roots are a Salem number, its inverse and points of the unit circle
   // (Parry, Growth series of Coxeter groups and Salem numbers, 1993). No polygon group grows more slowly than *237, so the zero lies below
-  // 0.86. Extended precision, so that the rounding to double is the only error that shows.
+  // 0.86. With extended precision, the rounding to double is the only visible error.
   std::map<int, int> counts;
   for (const int k : orders_of(orbifold)) ++counts[k];
   const long double walls = static_cast<long double>(orbifold.corners.size());

@@ -5,7 +5,7 @@
 
 namespace orbc::notation {
 
-/// A kaleidoscopic room: mirrors that meet in corners of angle π/k, in the order in which the author wrote them.
+/// A kaleidoscopic orbifold: mirrors that meet in corners of angle π/k, in the author's order.
 /// `*` has no corners and one wall; `*kk` two walls; `*k1…kN` N walls. Strips run to infinity between two parallel mirrors: `**` has no
 /// corner; `*22∞`, the half strip, has a third mirror across, which makes two corners of order 2 with them.
 /// Corners that are no integers ("*(3/2)(12)(12)", "*(2.5)44") are exact rationals; such rooms are no orbifolds.

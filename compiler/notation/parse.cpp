@@ -1,5 +1,6 @@
-// Text → characters (code points with their places) → tokens (star, order, x, o) → Conway symbol → orbifold or its refusal; other
-// notations are translated first (translate.h). Spellings of Conway's symbols that leave no doubt are read like the usual one, with a note.
+// Text → characters (code points with their places) → tokens (star, order, x, o) → Conway symbol → orbifold, or an error that says what the
+// symbol is. Other notations are translated first (translate.h). Unusual but unambiguous spellings of Conway's symbols are read, with a
+// note.
 #include "compiler/notation/parse.h"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ class Reader {
     return false;
   }
 
-  // What begins with no character of a symbol may be meant as the name of a group.
+  // A text that does not begin like a symbol may be meant as the name of a group.
   Diagnostics misread(Diagnostics errors) const {
     if (errors.front().span.column > text_.whole().column) return errors;
     const std::string near = nearest_group_name(ascii_of(text_.inner()));
@@ -80,7 +81,7 @@ class Reader {
     return noted(std::move(parsed));
   }
 
-  // Mirrors that meet at infinity: of E² they are parallel, and plain end walls close the room; of H² its corner is a cusp.
+  // Corners of order ∞: in E² their mirrors are parallel, and plain end walls close the room; in H² the corner is a cusp.
   Result<Parsed> unbounded(Parsed parsed, std::size_t endless) {
     const std::vector<Rational>& corners = parsed.orbifold.corners;
     const bool right = std::all_of(corners.begin(), corners.end(), [](const Rational& k) { return k == 2; });
@@ -102,7 +103,7 @@ class Reader {
         text_.begin, text_.end - text_.begin, fmt::format("a large order comes close: {}", to_text(near)));
   }
 
-  // Says how an unusual spelling was read.
+  // Adds a note on how an unusual spelling was read.
   Parsed noted(Parsed parsed) const {
     if (text_.respelled)
       parsed.notes.push_back(
@@ -149,7 +150,7 @@ class Reader {
     return true;
   }
 
-  // A symbol that is not kaleidoscopic: names what it is. Conway's order is o…, gyration points, *corners…, x….
+  // The error of a symbol that is not kaleidoscopic says what the symbol is. Conway's order is o…, gyration points, *corners…, x….
   Result<Parsed> refusal() {
     ConwaySymbol symbol;
     const Token* culprit = nullptr;
@@ -164,12 +165,20 @@ class Reader {
       if (late) {
         return text_.unexpected(token.begin, "Conway's order is: o, gyration points, * with its corners, x");
       }
-      bool foreign = true;
-      if (token.kind == Kind::star) foreign = !symbol.boundaries.empty(), symbol.boundaries.emplace_back();
-      else if (token.kind == Kind::cross_cap) ++symbol.crosscaps;
-      else if (token.kind == Kind::wonder_ring) ++symbol.handles;
-      else if (symbol.boundaries.empty()) symbol.gyrations.push_back(order);
-      else symbol.boundaries.back().push_back(order), foreign = !token.value;
+      bool foreign = true;  // whether the token makes the symbol other than kaleidoscopic
+      if (token.kind == Kind::star) {
+        foreign = !symbol.boundaries.empty();
+        symbol.boundaries.emplace_back();
+      } else if (token.kind == Kind::cross_cap) {
+        ++symbol.crosscaps;
+      } else if (token.kind == Kind::wonder_ring) {
+        ++symbol.handles;
+      } else if (symbol.boundaries.empty()) {
+        symbol.gyrations.push_back(order);
+      } else {
+        symbol.boundaries.back().push_back(order);
+        foreign = !token.value;
+      }
       if (foreign && !culprit) culprit = &token;
     }
     const std::string name = usual_name(symbol);

@@ -18,11 +18,12 @@ struct Token {
 
 struct Tokens {
   std::vector<Token> list;
-  bool separated = false;  ///< commas, points or blanks stand between the corners: a run of digits is one
+  bool separated = false;  ///< commas, points or blanks stand between the corners, so that a run of digits is one token
 };
 
-/// Takes a symbol of Conway's apart. In compact text each digit is a token; where corners are separated, a run of digits is. Lists in
-/// parentheses, powers, points, TeX and words for ∞ set `text.respelled`.
+/// Divides a symbol of Conway's into tokens. In compact text each digit is a token; where corners are separated, a run of digits is.
+/// Makes:       `text.respelled` is set by lists in parentheses, powers, points, TeX and words for ∞.
+/// Diagnostics: notation.unexpected-character, notation.unclosed-parenthesis, notation.order-out-of-range, notation.too-many-corners.
 [[nodiscard]] Result<Tokens> scan(SymbolText& text);
 
 }  // namespace orbc::notation

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compiler/base/utf8.h"
 #include "compiler/notation/characters.h"
 
 namespace orbc::notation {
@@ -49,16 +50,12 @@ Diagnostic SymbolText::unexpected(std::size_t at, const std::string& hint) const
 
 std::string SymbolText::shown(std::size_t at) const {
   const char32_t c = characters[at];
-  if (c >= 0x110000) return fmt::format("byte {:02X}", static_cast<unsigned>(c - 0x110000));
+  if (c >= kFirstByteCode) return fmt::format("byte {:02X}", static_cast<unsigned>(c - kFirstByteCode));
   if (c < 0x20 || (c >= 0x7F && c < 0xA0)) return fmt::format("control character {:02X}", static_cast<unsigned>(c));
-  std::string utf8;
-  if (c < 0x80) utf8 = static_cast<char>(c);
-  else if (c < 0x800) utf8 = {static_cast<char>(0xC0 | c >> 6), static_cast<char>(0x80 | (c & 0x3F))};
-  else utf8 = {static_cast<char>(0xE0 | c >> 12), static_cast<char>(0x80 | (c >> 6 & 0x3F)), static_cast<char>(0x80 | (c & 0x3F))};
-  return "'" + utf8 + "'";
+  return "'" + encode_utf8(c) + "'";
 }
 
-// Spans of YAML scalars begin at the quotation mark; the text behind it does not contain it.
+// A span of a YAML scalar begins at its quotation mark, which is not part of the text.
 void SymbolText::skip_quote() {
   std::string_view rest = span_.source->text;
   for (std::size_t line = 1; line < span_.line && !rest.empty(); ++line)
@@ -76,7 +73,7 @@ void SymbolText::trim() {
   while (end > begin && is_blank(characters[end - 1])) --end;
 }
 
-// Quotation marks around all of it become blanks.
+// Quotation marks around the whole text become blanks.
 void SymbolText::make_plain() {
   constexpr std::u32string_view kOpening = U"\"'`$\u201C\u2018", kClosing = U"\"'`$\u201D\u2019";
   constexpr char32_t kUsualStar = 0x2217;  // ∗, the mathematical one

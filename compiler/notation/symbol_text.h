@@ -6,22 +6,22 @@
 
 namespace orbc::notation {
 
-/// The text of a symbol as plain characters, with the places that diagnostics point at. Characters are only replaced, never moved.
+/// The text of a symbol as plain characters. Invariant: characters are replaced, never moved, so that diagnostics find their places.
 class SymbolText {
  public:
   static constexpr std::size_t kMaxBytes = 8192;  ///< 256 corners, each a fraction of seven-digit numbers in parentheses
 
-  /// In: where the text stands; without a source, diagnostics quote the text itself. What is longer than kMaxBytes is not looked at.
+  /// In: the place of the text in its file; without a source, diagnostics quote the text itself. Bytes after kMaxBytes are ignored.
   SymbolText(std::string_view text, SourceSpan span);
 
   std::u32string characters;
   std::size_t begin = 0, end = 0;  ///< of the characters without blanks around them
-  bool respelled = false;          ///< not in the usual spelling: the author should know how it was read
+  bool respelled = false;          ///< not in the usual spelling: a note tells the author how it was read
 
   [[nodiscard]] std::u32string inner() const { return characters.substr(begin, end - begin); }
   [[nodiscard]] SourceSpan place(std::size_t from, std::size_t length) const;
   [[nodiscard]] SourceSpan whole() const;
-  /// The text as its author wrote it, or "this symbol" when it is long.
+  /// The author's text, or "this symbol" when it is long.
   [[nodiscard]] std::string quoted() const;
   [[nodiscard]] Diagnostic error(const std::string& code, const std::string& message, std::size_t from, std::size_t length,
                                  const std::string& hint = {}) const;

@@ -1,5 +1,5 @@
-// Each notation has a function that reads it or returns nothing; none of them shares a word with Conway's symbols, so their order does not
-// matter. Orders are copied as they stand, in parentheses where they have several digits: the reader of Conway's symbols judges them.
+// Each notation has a function that reads it or returns nothing. No text is a symbol of two notations, so their order does not matter.
+// Orders are copied, in parentheses where they have several digits; the reader of Conway's symbols checks them.
 #include "compiler/notation/translate.h"
 
 #include <algorithm>
@@ -47,13 +47,15 @@ std::optional<Words> list_of(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (c == ' ' || c == '\t') {
-      open = true, ++at;
+      open = true;
+      ++at;
       continue;
     }
     if (c == ',') {
       const std::size_t next = text.find_first_not_of(" \t", at + 1);
       if (words.empty() || next == std::string_view::npos || text[next] == ',') return std::nullopt;
-      open = true, ++at;
+      open = true;
+      ++at;
       continue;
     }
     if (!open) return std::nullopt;
@@ -64,7 +66,8 @@ std::optional<Words> list_of(std::string_view text) {
     const bool number = std::all_of(word.begin(), word.end(), [](char d) { return is_digit(d) || d == '/'; }) && is_digit(word.front());
     if (!number && word != "inf") return std::nullopt;
     words.push_back(std::move(word));
-    at = end, open = false;
+    at = end;
+    open = false;
   }
   return words;
 }
@@ -305,7 +308,10 @@ std::optional<Translation> triangle_group(std::string_view text) {
   if (!name.empty() && name != "Delta" && name != "D") return std::nullopt;
   std::string_view inside = text.substr(parenthesis + 1, text.size() - parenthesis - 2);
   bool rotations = name == "D";  // von Dyck's group, the even words of Δ
-  if (name.empty() && inside.size() > 2 && inside[0] == '0' && inside[1] == ';') rotations = true, inside.remove_prefix(2);  // Fuchs
+  if (name.empty() && inside.size() > 2 && inside[0] == '0' && inside[1] == ';') {  // Fuchs
+    rotations = true;
+    inside.remove_prefix(2);
+  }
   const auto words = list_of(inside);
   if (!words || words->size() < (name.empty() && !rotations ? 2u : 1u)) return std::nullopt;
   if (words->size() != 3) {
@@ -339,7 +345,7 @@ std::optional<Translation> translate(std::string_view text) {
 }
 
 std::string nearest_group_name(std::string_view text) {
-  // Rooms first: they are what is looked for.
+  // Groups with rooms come first.
   for (const bool mirrors : {true, false}) {
     std::vector<std::string> names;
     for (const auto* groups : {&wallpaper_groups(), &fixed_point_groups()})

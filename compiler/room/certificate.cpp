@@ -15,10 +15,10 @@ using geometry::Ambient;
 using geometry::Line;
 using geometry::Space;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
 
-double up(const Real& bound) { return std::nextafter(static_cast<double>(bound), kInfinite); }
+double up(const Real& bound) { return std::nextafter(static_cast<double>(bound), kUnbounded); }
 
 struct Enclosed {
   Interval w, x, y;
@@ -32,14 +32,14 @@ Interval enclosed(const Real& rounded) { return Interval::around(rounded, rounde
 // |measured − wanted| from sine and cosine of the difference; arcsin s ≤ 1.0001 s below 0.01.
 double difference_bound(const Interval& sine, const Interval& cosine) {
   const Real s = sine.magnitude();
-  return s < 0.01 && cosine.low() > 0 ? up(s * 1.0001) : kInfinite;
+  return s < 0.01 && cosine.low() > 0 ? up(s * 1.0001) : kUnbounded;
 }
 
 // |angle − wanted| for the interior angle between two walls whose insides are left: cos α = −n·n'/(|n||n'|). No arc functions.
 double angle_bound(int k, const Line& before, const Line& after, const CornerAngle& wanted) {
   const Enclosed a = enclosed(before), b = enclosed(after);
   const Interval aa = inner(k, a, a), bb = inner(k, b, b), ab = inner(k, a, b), sine2 = aa * bb - ab * ab;
-  if (!(aa.low() > 0 && bb.low() > 0 && sine2.low() > 0)) return kInfinite;
+  if (!(aa.low() > 0 && bb.low() > 0 && sine2.low() > 0)) return kUnbounded;
   const Interval norm = sqrt(aa) * sqrt(bb), sine = sqrt(sine2) / norm, cosine = -ab / norm, ws = enclosed(wanted.sin),
                  wc = enclosed(wanted.cos);
   return difference_bound(sine * wc - cosine * ws, cosine * wc + sine * ws);
@@ -49,7 +49,7 @@ double angle_bound(int k, const Line& before, const Line& after, const CornerAng
 double distance_bound(int k, const Line& line, const Ambient& at) {
   const Enclosed n = enclosed(line), p = enclosed(at);
   const Interval nn = inner(k, n, n), pp = k == 0 ? p.w * p.w : p.w * p.w + Interval(k) * (p.x * p.x + p.y * p.y);
-  if (!(nn.low() > 0 && pp.low() > 0)) return kInfinite;
+  if (!(nn.low() > 0 && pp.low() > 0)) return kUnbounded;
   const Interval value = n.w * p.w + n.x * p.x + n.y * p.y;
   // arcsin v ≤ πv/2 on S²; arsinh v ≤ v.
   const Real bound = value.magnitude() / (sqrt(nn) * sqrt(pp)).low();
@@ -62,7 +62,7 @@ double length_bound(int k, const Ambient& p, const Ambient& q, double length) {
   const Interval dx = b.x - a.x, dy = b.y - a.y, flat = dx * dx + dy * dy;
   if (k == 0) return up((sqrt(flat) - Interval(length)).magnitude());
   const Interval dw = b.w - a.w, chord2 = flat + Interval(k) * dw * dw;
-  if (!(chord2.low() > 0)) return kInfinite;
+  if (!(chord2.low() > 0)) return kUnbounded;
   if (k > 0) {
     // Half the chord is the sine of half the distance, √(4 − chord²)/2 its cosine (0 for the ends of a half circle).
     const Interval rest2 = Interval(4) - chord2, rest = rest2.low() > 0 ? sqrt(rest2) : Interval::around(0, sqrt(abs(rest2.high())));
@@ -77,11 +77,11 @@ double length_bound(int k, const Ambient& p, const Ambient& q, double length) {
 }
 
 // |area of the outline − room.area|. E²: the shoelace formula. Else triangles with the origin: tan(A/2) = det/(1 + O·P + P·Q + Q·O)
-// (Eriksson 1990, On the measure of solid angles; the same with the Lorentz form); the half areas are added by multiplying vectors, and
-// the sum in double says how often the product has gone round.
+// (Eriksson 1990, On the measure of solid angles; the same with the Lorentz form). The half areas are added by multiplying complex numbers;
+// the sum in double gives the number of full turns of the product.
 double area_bound(const Room& room) {
   const int k = geometry::curvature(room.space);
-  // A product of enclosing boxes would swell by √2 with every turn; so the middles are multiplied, and the relative errors added.
+  // A product of enclosing boxes would grow by √2 with every turn. So the midpoints are multiplied, and the relative errors added.
   Real x = 1, y = 0, error = 0;
   Interval flat(0);
   double sum = 0;
@@ -90,7 +90,7 @@ double area_bound(const Room& room) {
     const Interval det = p.x * q.y - p.y * q.x;
     flat = flat + det / Interval(2);
     const Interval base = Interval(1) + p.w + q.w + p.w * q.w + Interval(k) * (p.x * q.x + p.y * q.y);
-    if (!(det.low() > 0)) return kInfinite;
+    if (!(det.low() > 0)) return kUnbounded;
     error += (det.high() - det.low() + base.high() - base.low()) / std::max(det.low(), base.magnitude()) + ldexp(Real(1), -160);
     const Real turned = x * base.low() - y * det.low();
     y = x * det.low() + y * base.low();
@@ -98,7 +98,7 @@ double area_bound(const Room& room) {
     sum += 2 * math::atan2(static_cast<double>(det.low()), static_cast<double>(base.low()));
   }
   if (k == 0) return up((flat - Interval(room.area)).magnitude());
-  if (!(std::fabs(sum - room.area) < 1)) return kInfinite;
+  if (!(std::fabs(sum - room.area) < 1)) return kUnbounded;
   const Real norm = sqrt(x * x + y * y), s = sin(Real(room.area) / 2), c = cos(Real(room.area) / 2);
   const Real sine = (y * c - x * s) / norm, cosine = (x * c + y * s) / norm, more = 2 * error;
   return 2 * difference_bound(Interval::around(sine - more, sine + more), Interval::around(cosine - more, cosine + more));
@@ -132,14 +132,14 @@ Certificate certify(const Room& room) {
   return c;
 }
 
-bool is_granted(const Room& room, const Certificate& c) {
-  // One ulp of a coordinate at distance r moves a point by cosh r ulps, and a line of slope cosh r by as much again.
+bool passes(const Room& room, const Certificate& c) {
+  // At distance r one ulp of a coordinate moves a point by cosh r ulps, and a line by cosh² r.
   const double size = room.space == Space::hyperbolic ? math::cosh(room.circumradius) : 1;
   const double scale = room.space == Space::euclidean ? room.circumradius : 1;
   const double rounding = 64 * kUlp * size * size;
   double sharpest = 1;
   for (const Corner& corner : room.corners) sharpest = std::min(sharpest, math::sin(corner.angle));
-  const auto within = [](double value, double explained, double most) { return value <= explained && value <= most; };
+  const auto within = [](double value, double explained, double bound) { return value <= explained && value <= bound; };
   const double count = static_cast<double>(std::max<std::size_t>(room.outline.size(), 4));
   return c.convex && within(c.angle_residual, rounding / sharpest, std::max(1e-2 * sharpest, 16 * kUlp)) &&
          within(c.closure_residual, rounding * scale, 1e-2 * scale) && within(c.side_residual, rounding * scale, 1e-2 * scale) &&

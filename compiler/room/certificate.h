@@ -9,8 +9,8 @@ namespace orbc::room {
 /// Makes:  infinite residuals where the stored doubles define no angle or no distance any more.
 [[nodiscard]] Certificate certify(const Room& room);
 
-/// Whether the residuals are what rounding to doubles explains at this size (in H² doubles lose e^(2r) at distance r) and in any case
-/// small.
-[[nodiscard]] bool is_granted(const Room& room, const Certificate& certificate);
+/// Whether the room is convex and its residuals are small: not more than rounding to doubles explains at this size (in H² doubles lose
+/// e^(2r) at distance r), and not more than a hundredth of the sharpest angle, of the scale, or a tenth of the area's scale.
+[[nodiscard]] bool passes(const Room& room, const Certificate& certificate);
 
 }  // namespace orbc::room

@@ -5,9 +5,9 @@
 
 namespace orbc::room {
 
-/// A closed interval that contains the true value. Every operation widens its result by 2^-160 of its size, far more than the half ulp
-/// (2^-168) of a basic operation or a square root and the few ulps of a sine, so that it stays an enclosure whatever the rounding
-/// direction.
+/// A closed interval that contains the true value. Every operation widens its result by 2^-160 of its size. That is far more than the half
+/// ulp (2^-168) of a basic operation or a square root and the few ulps of a sine, so the result contains the true value in every rounding
+/// mode.
 class Interval {
  public:
   Interval(double value) : low_(value), high_(value) {}

@@ -1,7 +1,7 @@
-// N − 3 sides are given, three are not. The walls between two free walls form a rigid chain (angles and lengths known), so the inner
-// product of the two free lines is known, and so is the Gram matrix of the three free lines: the polygon follows in closed form, like
-// a triangle from its angles (a generalised one: lines may cross, be parallel or have a common perpendicular). Of the two mirror
-// images of the third line at most one closes a convex room. No iteration, no start value.
+// N − 3 sides are given, three are free. The walls between two free walls form a rigid chain, whose angles and lengths are known. So the
+// inner products of the free lines are known, and the polygon follows from their Gram matrix in closed form, as a triangle follows from its
+// angles (a generalised triangle: lines may cross, be parallel or have a common perpendicular). Of the two mirror images of the third line
+// at most one closes a convex room.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace orbc::room {
 namespace {
 
-// The lines of consecutive walls in the frame of the first wall's end.
+// The lines of consecutive walls, in coordinates of the end of the first wall.
 struct Chain {
   std::vector<RealVector> lines;
 };
@@ -23,7 +23,7 @@ Chain chain_between(const std::vector<CornerAngle>& angles, const std::map<int, 
   Chain chain{{dual(-1, left)}};
   for (std::size_t wall = from; wall != to;) {
     wall = (wall + 1) % n;
-    // At the corner the way turns left by π − α.
+    // At the corner the border turns left by π − α.
     const Real &c = angles[wall].cos, &s = angles[wall].sin;
     const RealVector turned = s * left - c * along;
     left = (-s) * along - c * left;
@@ -38,7 +38,8 @@ Chain chain_between(const std::vector<CornerAngle>& angles, const std::map<int, 
   return chain;
 }
 
-// Moves a chain so that its first and last line become `first` and `last`: coordinates in the basis (first, last, first × last) stay.
+// Moves a chain so that its first and last line become `first` and `last`. All its lines keep their coordinates in the basis
+// (first, last, first × last).
 std::vector<RealVector> moved(const Chain& chain, const RealVector& first, const RealVector& last) {
   const RealVector &f = chain.lines.front(), &l = chain.lines.back(), m = dual(-1, cross(f, l)), image = dual(-1, cross(first, last));
   const Real g = inner(-1, f, l), det = 1 - g * g;
@@ -83,16 +84,17 @@ Result<Polygon> polygon_with_lengths(const std::vector<CornerAngle>& angles, con
   for (std::size_t i = 0; i < n; ++i)
     if (!lengths.count(static_cast<int>(i) + 1)) open.push_back(i);
 
-  // Start at the pair of free lines that is farthest from parallel (|g| = 1), where the basis would collapse.
+  // Begin with the pair of free lines that is farthest from parallel: for |g| = 1 they are no basis.
   std::array<std::size_t, 3> best{};
   std::array<Chain, 3> best_chains;
   Real best_gap = -1;
-  for (std::size_t turn = 0; turn < 3; ++turn) {
-    const std::array<std::size_t, 3> free{open[turn], open[(turn + 1) % 3], open[(turn + 2) % 3]};
+  for (std::size_t start = 0; start < 3; ++start) {
+    const std::array<std::size_t, 3> free{open[start], open[(start + 1) % 3], open[(start + 2) % 3]};
     Chain first = chain_between(angles, lengths, free[0], free[1]);
     const Real g = inner(-1, first.lines.front(), first.lines.back()), gap = abs(1 - g * g);
     if (gap <= best_gap) continue;
-    best = free, best_gap = gap;
+    best = free;
+    best_gap = gap;
     best_chains = {std::move(first), chain_between(angles, lengths, free[1], free[2]), chain_between(angles, lengths, free[2], free[0])};
   }
   const auto product = [&](std::size_t i) { return inner(-1, best_chains[i].lines.front(), best_chains[i].lines.back()); };

@@ -9,7 +9,7 @@
 
 namespace orbc::room {
 
-/// The interior angle π/k of a corner and what is needed of it.
+/// The interior angle π/k of a corner, and its functions.
 struct CornerAngle {
   Real angle, sin, cos, sin_half, cos_half;
 };
@@ -29,31 +29,34 @@ struct Polygon {
 
 /// Two half great circles that meet under the angle at ±x.
 [[nodiscard]] Polygon lune(const CornerAngle& angle);
-/// side 1 × side 2, corner 1 in the direction of +x.
+/// The rectangle with wall 1 of length side1 and wall 2 of length side2; corner 1 in the direction of +x.
 [[nodiscard]] Polygon rectangle(const Real& side1, const Real& side2);
 
-/// The cuts of a decomposition, completed: regions that the named cuts leave open are fanned at their highest wall, which is the paper's
-/// forward reading when nothing is named. Walls from 1.
+/// Completes the cuts of a decomposition: regions that the named cuts leave undivided are divided by a fan around their highest wall.
+/// Without named cuts this is the paper's forward reading.
+/// In:          walls count from 1; the length of cuts that are not named.
+/// Makes:       N − 3 cuts for N walls, by their walls.
 /// Diagnostics: room.bad-cuts.
 [[nodiscard]] Result<std::vector<scene::Cut>> complete_cuts(int walls, const std::vector<scene::Cut>& named, double default_length);
 
-/// The hyperbolic polygon with these angles, glued along common perpendiculars of the given lengths; not centred.
+/// The hyperbolic polygon with these angles whose cuts have the given lengths; not centred. A cut is a segment of the common perpendicular
+/// of two walls.
 /// In:          N ≥ 4 angles and the N − 3 cuts of complete_cuts.
 /// Diagnostics: room.no-such-shape (only with corners wider than π/2), room.no-certificate (too wide for 50 digits).
-[[nodiscard]] Result<Polygon> glued_polygon(const std::vector<CornerAngle>& angles, const std::vector<scene::Cut>& cuts);
+[[nodiscard]] Result<Polygon> polygon_with_cuts(const std::vector<CornerAngle>& angles, const std::vector<scene::Cut>& cuts);
 
 /// The hyperbolic polygon with these angles and N − 3 given side lengths (wall from 1 → length); not centred.
 /// Diagnostics: room.bad-lengths (number or value of the lengths), room.no-such-shape.
 [[nodiscard]] Result<Polygon> polygon_with_lengths(const std::vector<CornerAngle>& angles, const std::map<int, double>& lengths);
 
-/// Computes the corners from the lines; nothing when neighbours do not meet or a wall would run backwards. H² only.
+/// H²: computes the corners from the lines. Nothing when neighbours do not meet, or a wall would run backwards.
 [[nodiscard]] std::optional<Polygon> closed_polygon(std::vector<RealVector> lines);
 
-/// Moves the polygon: incentre (if a circle touches all walls to 1e-12) or normalised mean of the corners to the origin, corner 1 to +x. H²
-/// only.
+/// H²: moves the centre to the origin and corner 1 to the direction of +x. The centre is the incentre if a circle touches all walls to
+/// 1e-12, else the normalised mean of the corners.
 [[nodiscard]] Polygon centred(const Polygon& polygon);
 
-/// Length of wall i.
+/// The length of a wall (from 0).
 [[nodiscard]] Real side_length(const Polygon& polygon, std::size_t wall);
 
 }  // namespace orbc::room

@@ -9,7 +9,7 @@
 #include "compiler/notation/print.h"
 #include "compiler/room/certificate.h"
 #include "compiler/room/polygon.h"
-#include "compiler/room/settle.h"
+#include "compiler/room/round_to_doubles.h"
 
 namespace orbc::room {
 namespace {
@@ -18,9 +18,9 @@ using geometry::Space;
 using scene::Shape;
 using scene::ShapeKind;
 
-constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
+constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
 
-bool all_right(const std::vector<Rational>& orders) {
+bool all_right_angles(const std::vector<Rational>& orders) {
   for (const Rational& k : orders)
     if (k != 2) return false;
   return true;
@@ -33,11 +33,11 @@ Diagnostic unused(std::string_view what, std::string_view where) {
 // Settings that this room cannot use are mistakes, like unknown keys.
 Diagnostics shape_faults(const Shape& shape, Space space, bool strip, bool rectangle) {
   Diagnostics faults;
-  const auto good = [](double size) { return size >= kLeastScale && size <= kLargestScale; };
+  const auto good = [](double size) { return size >= kMinScale && size <= kMaxScale; };
   for (const auto& [name, size] : {std::pair{"scale", shape.scale}, {"aspect", shape.aspect}, {"strip_length", shape.strip_length}})
     if (!good(size))
       faults.push_back(make_error("room.bad-size", fmt::format("{} is {}", name, size),
-                                  fmt::format("sizes lie between {} and {}", kLeastScale, kLargestScale)));
+                                  fmt::format("sizes lie between {} and {}", kMinScale, kMaxScale)));
   if (!faults.empty()) return faults;
   if (shape.scale != 1 && space != Space::euclidean)
     faults.push_back(unused("scale", "in the Euclidean plane: curved rooms are measured in curvature radii"));
@@ -62,7 +62,7 @@ Result<Polygon> hyperbolic_polygon(const std::vector<CornerAngle>& angles, const
     auto cuts = complete_cuts(walls, shape.cuts, shape.cut);
     if (!cuts) return std::move(cuts).error();
     if (walls == 3) return *tangential;  // a triangle is rigid and has no cuts
-    auto polygon = glued_polygon(angles, *cuts);
+    auto polygon = polygon_with_cuts(angles, *cuts);
     if (!polygon) return std::move(polygon).error();
     return centred(*polygon);
   }
@@ -82,7 +82,7 @@ Result<Polygon> hyperbolic_polygon(const std::vector<CornerAngle>& angles, const
 Result<Polygon> polygon_of(Space space, const std::vector<Rational>& orders, const std::vector<CornerAngle>& angles, const Shape& shape) {
   if (orders.size() == 2) return lune(angles[0]);
   if (space == Space::hyperbolic) return hyperbolic_polygon(angles, shape);
-  if (orders.size() == 4 && all_right(orders)) {
+  if (orders.size() == 4 && all_right_angles(orders)) {
     // The shorter side is 2·scale, so that `scale` is the radius of the largest circle inside whatever the aspect.
     const Real short_side = 2 * Real(shape.scale), ratio = shape.aspect;
     return shape.aspect >= 1 ? rectangle(short_side * ratio, short_side) : rectangle(short_side, short_side / ratio);
@@ -93,7 +93,8 @@ Result<Polygon> polygon_of(Space space, const std::vector<Rational>& orders, con
 }
 
 double area_of(const Polygon& polygon, const Rational& chi) {
-  if (polygon.space != Space::euclidean) return static_cast<double>(2 * real_pi() * real_of(abs(numerator(chi))) / real_of(denominator(chi)));
+  if (polygon.space != Space::euclidean)
+    return static_cast<double>(2 * real_pi() * real_of(abs(numerator(chi))) / real_of(denominator(chi)));
   Real area = 0;
   for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
     const RealVector &p = polygon.corners[i], &q = polygon.corners[(i + 1) % polygon.corners.size()];
@@ -103,7 +104,7 @@ double area_of(const Polygon& polygon, const Rational& chi) {
 }
 
 Result<Room> certified(Room room, ShapeKind kind) {
-  if (is_granted(room, room.certificate)) return room;
+  if (passes(room, room.certificate)) return room;
   const Certificate& c = room.certificate;
   if (room.space == Space::hyperbolic && room.circumradius > 12)
     return make_error(
@@ -123,7 +124,7 @@ Result<Room> certified(Room room, ShapeKind kind) {
 
 }  // namespace
 
-Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shape, bool allow_non_orbifold) {
+Result<Room> realise_uncertified(const notation::Orbifold& orbifold, const Shape& shape, bool allow_non_orbifold) {
   const Result<Space> classified = notation::classify(orbifold, shape.span);
   if (!classified) return classified.error();
   if (!allow_non_orbifold && !notation::is_orbifold(orbifold))
@@ -133,7 +134,7 @@ Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shap
   const std::vector<Rational>& orders = orbifold.corners;
   const Rational chi = notation::euler_characteristic(orbifold);
   const Space space = *classified;
-  const bool is_rectangle = orders.size() == 4 && all_right(orders);
+  const bool is_rectangle = orders.size() == 4 && all_right_angles(orders);
   if (Diagnostics faults = shape_faults(shape, space, orbifold.strip, is_rectangle); !faults.empty()) return faults;
 
   Room room;
@@ -142,7 +143,7 @@ Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shap
     const bool half = notation::is_half_strip(orbifold);
     const Real width = 2 * Real(shape.scale), length = Real(shape.strip_length) * shape.scale;
     const Polygon polygon = half ? rectangle(width, length) : rectangle(length, width);
-    room = settle(polygon, angles);
+    room = round_to_doubles(polygon, angles);
     for (const std::size_t end : half ? std::vector<std::size_t>{2} : std::vector<std::size_t>{1, 3}) room.walls[end].reflects = false;
     room.area = area_of(polygon, chi);
   } else if (orders.empty()) {
@@ -152,7 +153,7 @@ Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shap
     const std::vector<CornerAngle> angles = corner_angles(orders);
     Result<Polygon> polygon = polygon_of(space, orders, angles, shape);
     if (!polygon) return std::move(polygon).error();
-    room = settle(*polygon, angles);
+    room = round_to_doubles(*polygon, angles);
     room.area = area_of(*polygon, chi);
   }
   room.orbifold = orbifold;
@@ -161,7 +162,7 @@ Result<Room> measured_room(const notation::Orbifold& orbifold, const Shape& shap
 }
 
 Result<Room> realise(const notation::Orbifold& orbifold, const Shape& shape, bool allow_non_orbifold) {
-  Result<Room> room = measured_room(orbifold, shape, allow_non_orbifold);
+  Result<Room> room = realise_uncertified(orbifold, shape, allow_non_orbifold);
   if (room) room = certified(*std::move(room), shape.kind);
   if (!room) return located(std::move(room).error(), shape.span);
   return room;

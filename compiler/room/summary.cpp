@@ -5,7 +5,7 @@
 #include "compiler/notation/print.h"
 #include "compiler/room/certificate.h"
 #include "compiler/room/polygon.h"
-#include "compiler/room/settle.h"
+#include "compiler/room/round_to_doubles.h"
 
 namespace orbc::room {
 namespace {
@@ -31,7 +31,7 @@ Summary summarise(const Room& room) {
   s.circumradius = room.circumradius;
   s.area = room.area;
   s.certificate = room.certificate;
-  s.certified = is_granted(room, room.certificate);
+  s.certified = passes(room, room.certificate);
   s.translational_cover = translational_cover(room);
   const int walls = static_cast<int>(room.orbifold.corners.size());
   if (room.space == geometry::Space::hyperbolic && walls > 3) {
@@ -45,7 +45,7 @@ Summary summarise(const Room& room) {
 }
 
 Result<Summary> summarise(const notation::Orbifold& orbifold, const scene::Shape& shape, bool allow_non_orbifold) {
-  const Result<Room> room = measured_room(orbifold, shape, allow_non_orbifold);
+  const Result<Room> room = realise_uncertified(orbifold, shape, allow_non_orbifold);
   if (!room) return located(room.error(), shape.span);
   return summarise(*room);
 }

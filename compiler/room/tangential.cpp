@@ -1,7 +1,8 @@
 // The polygon around a circle. Incentre, touching point and corner form a right triangle with the angles θ (at the centre) and β = α/2:
 //   cos β = cosκ r · sin θ   and   sinκ r = sinκ R · sin β        (Thurston, Three-Dimensional Geometry and Topology, §2.4; Napier's rules)
 // so tan θᵢ = cos βᵢ / √Dᵢ with Dᵢ = sin² βᵢ − κu, u = sinκ² r, and the circle closes when Σ θᵢ = π. One unknown, one monotone function:
-// bracketed Newton, in double for the start and in 50 digits for the end. Corners are then placed from the centre; nothing is walked.
+// bracketed Newton, in double for the start and in 50 digits for the end. Corners are computed from the centre, so that errors do not
+// accumulate along the border.
 #include <cmath>
 #include <numbers>
 
@@ -26,10 +27,10 @@ struct CircleEquation {
   int k = 0;
   std::vector<Group> groups;
   std::size_t narrowest = 0;
-  bool beyond = false;  // S²: the narrowest corner is seen from the centre under more than a right angle (θ > π/2)
+  bool beyond = false;  // S²: at the centre, the narrowest corner has an angle θ > π/2
 
-  // dθ/du = κ cos β / (2 √D (1 − κu)). The angles are not added but the vectors √D + i cos β multiplied, so that one arc tangent serves for
-  // all; how often the product has gone round is known from the sum in double.
+  // dθ/du = κ cos β / (2 √D (1 − κu)). Instead of adding angles, the complex numbers √D + i cos β are multiplied, so that one arc tangent
+  // is enough. The sum in double gives the number of full turns of the product.
   [[nodiscard]] Value at(const Real& u) const {
     Real x = -1, y = 0, slope = 0;
     double sum = -std::numbers::pi;
@@ -51,14 +52,14 @@ struct CircleEquation {
   }
 };
 
-// The same in plain double, for a start value.
-struct RoughEquation {
+// The same in double, for a start value.
+struct EquationInDouble {
   const CircleEquation& fine;
-  struct RoughValue {
+  struct Value {
     double excess, slope;
   };
-  [[nodiscard]] RoughValue at(double u) const {
-    RoughValue value{-std::numbers::pi, 0};
+  [[nodiscard]] Value at(double u) const {
+    Value value{-std::numbers::pi, 0};
     for (std::size_t i = 0; i < fine.groups.size(); ++i) {
       const auto& g = fine.groups[i];
       const double s = static_cast<double>(g.sin_half), c = static_cast<double>(g.cos_half), d = s * s - fine.k * u;
@@ -83,7 +84,7 @@ Number solve(const Equation& equation, Number low, Number high, Number u, bool r
     if (!(next > low && next < high)) next = (low + high) / 2;
     const Number step = next > u ? next - u : u - next;
     u = next;
-    // Newton squares the error: a step this small leaves nothing behind.
+    // Newton's method squares the error: after a step this small the error is below the precision.
     if (step <= precision * u) return u;
   }
   return u;
@@ -129,7 +130,7 @@ std::optional<Circle> inscribed_circle(Space space, const std::vector<CornerAngl
     }
   }
   const double top = static_cast<double>(high);
-  double start = solve<double>(RoughEquation{fine}, 0, top, top / 16, rising, 1e-14);
+  double start = solve<double>(EquationInDouble{fine}, 0, top, top / 16, rising, 1e-14);
   if (!(start > 0 && start < top)) start = top / 16;
   return Circle{solve<Real>(fine, 0, high, start, rising, ldexp(Real(1), -80)), fine.beyond};
 }

@@ -3,9 +3,9 @@
 
 namespace orbc::room {
 
-/// The direction, from the centre, in which a picture tells most of the room: a little beside a corner, so that the images around it are
-/// seen in full and the wall beside it shows those behind; of the corners the one that is second widest, since around sharp ones the images
-/// are many and far. The strip is seen along its row of images, the half sphere anyhow.
+/// A good viewing direction from the centre of a room: 20° to the right of the corner that is second widest, so that the picture shows all
+/// images around this corner and those behind the wall beside it. Around sharp corners images are many and far away. In a strip the
+/// direction is along its row of images; in the half sphere it is 0.
 /// Makes: degrees counter-clockwise from corner 1, in [0, 360).
 [[nodiscard]] double view_direction(const Room& room);
 

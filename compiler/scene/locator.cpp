@@ -5,33 +5,14 @@
 
 #include <algorithm>
 
+#include "compiler/base/utf8.h"
+
 namespace orbc::scene {
 namespace {
 
 constexpr std::size_t kBlock = 256;
 
 bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
-
-struct Decoded {
-  std::size_t length = 0;           // 0: not UTF-8 (overlong, surrogate, beyond U+10FFFF, truncated)
-  char32_t character = 0;
-};
-
-Decoded decode(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(at);
-  if (lead < 0x80) return {1, lead};
-  const std::size_t length = lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
-  if (length == 0 || at + length > text.size()) return {};
-  char32_t character = lead & (0x7F >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xC0) != 0x80) return {};
-    character = character << 6 | (byte(at + i) & 0x3F);
-  }
-  const bool overlong = (length == 3 && character < 0x800) || (length == 4 && character < 0x10000);
-  if (overlong || (character >= 0xD800 && character < 0xE000) || character > 0x10FFFF) return {};
-  return {length, character};
-}
 
 bool printable(char32_t c) {
   return c == '\t' || c == '\n' || c == '\r' || (c >= 0x20 && c < 0x7F) || c == 0x85 || (c >= 0xA0 && c < 0xFFFE && c != 0xFEFF) ||
@@ -102,15 +83,15 @@ bool Locator::quote_is_closed(std::size_t offset) const {
 
 std::optional<Diagnostic> Locator::first_bad_character() const {
   for (std::size_t i = 0; i < text().size();) {
-    const Decoded decoded = decode(text(), i);
-    if (decoded.length == 0)
+    const auto decoded = decode_utf8(text(), i);
+    if (!decoded)
       return make_error("scene.not-utf8", fmt::format("byte {} (0x{:02X}) is not UTF-8", i + 1, static_cast<unsigned char>(text()[i])),
                         "save the file with the encoding UTF-8", at(i));
-    if (!printable(decoded.character))
+    if (!printable(decoded->code))
       return make_error("scene.bad-character",
-                        fmt::format("the character U+{:04X} may not stand in a scene", static_cast<unsigned>(decoded.character)),
+                        fmt::format("the character U+{:04X} may not stand in a scene", static_cast<unsigned>(decoded->code)),
                         "remove it; an editor may show it as nothing", at(i));
-    i += decoded.length;
+    i += decoded->length;
   }
   return std::nullopt;
 }

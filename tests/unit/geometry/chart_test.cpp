@@ -56,7 +56,9 @@ TEST_CASE("the gnomonic chart goes there and back and makes geodesics straight",
     for (int i = 0; i < 2000; ++i) {
       const double far = space == Space::spherical ? 1.2 : 2;
       const Point p = random.point(space, far), q = random.point(space, far);
-      CHECK(distance(space, point_from_gnomonic(space, gnomonic_from_point(p)), p) < 64 * kEps * stretch(space, p) * stretch(space, p));
+      const std::complex<double> klein = gnomonic_from_point(p);
+      CHECK(distance(space, normalised_point(space, {1, klein.real(), klein.imag()}), p) <
+            64 * kEps * stretch(space, p) * stretch(space, p));
       if (distance(space, p, q) < 0.1) continue;
       const Point m = point_along(space, p, direction_to(space, p, q), distance(space, p, q) * random.uniform(0.1, 0.9));
       const std::complex<double> a = gnomonic_from_point(p), b = gnomonic_from_point(q), c = gnomonic_from_point(m);

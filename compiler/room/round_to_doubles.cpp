@@ -1,4 +1,4 @@
-#include "compiler/room/settle.h"
+#include "compiler/room/round_to_doubles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 using geometry::Point;
 using geometry::Space;
 
-constexpr double kLongWall = 2;  // radians of S²; orbifolds with corners reach π/2 at most, lunes π
+constexpr double kLongWallRadians = 2;  // radians of S²; orbifolds with corners reach π/2 at most, lunes π
 
 // What 168 bits of working precision leave of an exact zero becomes one.
 double rounded(const Real& value, const Real& scale) { return abs(value) <= ldexp(scale, -140) ? 0 : static_cast<double>(value); }
@@ -47,7 +47,7 @@ Point between(const RealVector& start, const RealVector& along, const RealVector
 
 }  // namespace
 
-Room settle(const Polygon& polygon, const std::vector<CornerAngle>& angles) {
+Room round_to_doubles(const Polygon& polygon, const std::vector<CornerAngle>& angles) {
   Room room;
   room.space = polygon.space;
   const int k = geometry::curvature(polygon.space);
@@ -65,7 +65,7 @@ Room settle(const Polygon& polygon, const std::vector<CornerAngle>& angles) {
     room.walls.push_back({{l.w, l.x, l.y}, room.corners[i].at, {t.w, t.x, t.y}, static_cast<double>(length), true});
     room.outline.push_back(room.corners[i].at);
     room.outline_wall.push_back(static_cast<int>(i));
-    if (k > 0 && length > kLongWall) {
+    if (k > 0 && length > kLongWallRadians) {
       room.outline.push_back(between(start, along, line, length / 2, room.corners[i].at, room.corners[(i + 1) % n].at));
       room.outline_wall.push_back(static_cast<int>(i));
     }
