@@ -53,7 +53,7 @@ std::vector<ViewDependentPart> find_view_dependent_parts(const place::PlacedRoom
 
 bool needs_view_bake(const place::PlacedRoom& room, const light::LightingContext& lighting) {
   if (is_specular(room, lighting.lit)) return true;
-  if (!lighting.lit || lighting.images.empty()) return false;
+  if (!lighting.lit || lighting.lamps->images.empty()) return false;
   return std::any_of(room.looks.begin(), room.looks.end(), [](const place::Look& look) { return is_glossy(look.material); });
 }
 

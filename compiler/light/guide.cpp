@@ -99,7 +99,7 @@ Guide guide_at(const LightingContext& lighting, const surface::ShadingPoint& poi
   guide.bitangent = cross(guide.normal, guide.tangent);
   std::vector<Guide::Lobe> lobes;
   for (const std::uint32_t i : images_at(lighting, point.at)) {
-    const LampImage& image = lighting.images[i];
+    const LampImage& image = lighting.lamps->images[i];
     for (const HotSpot& spot : image.hot_spots)
       if (const auto lobe = lobe_of(lighting, image, spot, point, guide)) lobes.push_back(*lobe);
   }

@@ -134,7 +134,7 @@ Color highlight(const LightingContext& lighting, const surface::ShadingPoint& po
   const SpecularLobe lobe{space, point, to_eye, surface::f0(material, albedo), alpha * alpha, trace::inner(space, point.normal, to_eye)};
   if (lobe.cos_eye <= 0) return {};
   Color sum;
-  for (const std::uint32_t i : images_at(lighting, point.at)) sum = sum + image_highlight(lighting, lighting.images[i], lobe);
+  for (const std::uint32_t i : images_at(lighting, point.at)) sum = sum + image_highlight(lighting, lighting.lamps->images[i], lobe);
   if (material.kind != scene::MaterialKind::metal) return sum;
   return surface::multiscatter_compensation(lobe.f0, lobe.cos_eye, alpha) * sum;
 }

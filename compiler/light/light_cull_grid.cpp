@@ -24,8 +24,8 @@ int cell_of(double at, int cells) { return at > 0 ? static_cast<int>(std::min(at
 LightCullGrid make_light_cull_grid(const LightingContext& lighting, const Executor& executor) {
   LightCullGrid grid;
   const Space space = lighting.scene.prism.space;
-  if (lighting.images.size() <= kMaxImagesForFlatList || space == Space::spherical) {
-    grid.images[0].resize(lighting.images.size());
+  if (lighting.lamps->images.size() <= kMaxImagesForFlatList || space == Space::spherical) {
+    grid.images[0].resize(lighting.lamps->images.size());
     std::iota(grid.images[0].begin(), grid.images[0].end(), 0u);
     return grid;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "compiler/light/connection.h"
 #include "compiler/light/falloff.h"
@@ -69,7 +70,7 @@ SampleBudget sample_budget(double steps, int samples, const SampleStratum& strat
 /// The irradiance from one image of a lamp.
 Color image_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
                        const SampleStratum& stratum) {
-  const LampImage& image = lighting.images[number];
+  const LampImage& image = lighting.lamps->images[number];
   const Space space = lighting.scene.prism.space;
   const PlacedLamp& lamp = lamp_of_image(lighting, image);
   const Connection centre = connect(space, point.ray_origin, image.samples[0], image.sheet);
@@ -113,6 +114,15 @@ Color image_irradiance(const LightingContext& lighting, std::uint32_t number, co
   return (budget.weight / budget.count) * (lamp.power * sum);
 }
 
+Result<LampSet> with_images(const scene::Scene& scene, const place::PlacedRoom& room, PlacedLamps placed, const LightOptions& options) {
+  LampSet set{std::move(placed.lamps), {}, std::move(placed.warnings)};
+  for (PlacedLamp& lamp : set.lamps) lamp.hot_spots = find_hot_spots(lamp, room);
+  auto images = lamp_images(set.lamps, room, {options.bounces, scene.exposure, options.cull_below});
+  if (!images) return located(images.error(), scene.bake.mirrors_span);
+  set.images = std::move(images).value();
+  return set;
+}
+
 /// The room without the bodies of its lamps.
 std::shared_ptr<const place::PlacedRoom> make_shadow_casters(const place::PlacedRoom& room) {
   auto casters = std::make_shared<place::PlacedRoom>(room);
@@ -136,8 +146,15 @@ LightOptions light_options(const scene::Scene& scene) {
   return options;
 }
 
-Result<LightingContext> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options,
-                                      const Executor& executor) {
+Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options) {
+  auto placed = place_lamps(scene, room.room);
+  if (!placed) return placed.error();
+  if (auto inside = lamps_inside_objects(scene, *placed, room); !inside.empty()) return inside;
+  return with_images(scene, room, std::move(*placed), options);
+}
+
+LightingContext prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, std::shared_ptr<const LampSet> lamps,
+                              const LightOptions& options, const Executor& executor) {
   LightingContext lighting;
   lighting.lit = !scene.lamps.empty() || options.indirect_bounces > 0;
   lighting.exposure = scene.exposure;
@@ -145,21 +162,24 @@ Result<LightingContext> prepare_light(const scene::Scene& scene, const place::Pl
     lighting.ambient = {1, 1, 1};
     return lighting;
   }
-  auto placed = place_lamps(scene, room.room);
-  if (!placed) return placed.error();
   lighting.ambient = scene.ambient;
   lighting.options = options;
-  lighting.lamps = std::move(placed->lamps);
-  for (PlacedLamp& lamp : lighting.lamps) lamp.hot_spots = find_hot_spots(lamp, room);
-  auto images = lamp_images(lighting.lamps, room, {options.bounces, scene.exposure, options.cull_below});
-  if (!images) return located(images.error(), scene.bake.mirrors_span);
-  lighting.images = std::move(images).value();
+  lighting.lamps = std::move(lamps);
   lighting.normals.resize(room.parts.size());
   executor(room.parts.size(), [&](std::size_t i) { lighting.normals[i] = surface::part_normals(room, room.parts[i]); });
   lighting.shadow_casters = make_shadow_casters(room);
   lighting.scene = trace::prepare(*lighting.shadow_casters, executor);
   lighting.cull_grid = make_light_cull_grid(lighting, executor);
   return lighting;
+}
+
+Result<LightingContext> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options,
+                                      const Executor& executor) {
+  auto placed = place_lamps(scene, room.room);
+  if (!placed) return placed.error();
+  auto lamps = with_images(scene, room, std::move(*placed), options);
+  if (!lamps) return lamps.error();
+  return prepare_light(scene, room, std::make_shared<const LampSet>(std::move(*lamps)), options, executor);
 }
 
 Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const SampleStratum& stratum) {
@@ -178,8 +198,8 @@ std::vector<std::uint32_t> images_within(const LightingContext& lighting, const 
   // On S² the falloff rises again towards a focus, so it gives no bound over a ball.
   const bool bounded = lighting.scene.prism.space != Space::spherical;
   std::vector<std::uint32_t> within;
-  for (std::uint32_t i = 0; i < lighting.images.size(); ++i) {
-    const LampImage& image = lighting.images[i];
+  for (std::uint32_t i = 0; i < lighting.lamps->images.size(); ++i) {
+    const LampImage& image = lighting.lamps->images[i];
     const Connection connection = connect(lighting.scene.prism.space, centre, image.samples[0], image.sheet);
     if (!bounded || image_bound(lighting, image, connection.length - radius, std::max(connection.arc - radius, 0.0)) >=
                         share * lighting.options.cull_below)
@@ -195,7 +215,7 @@ Color estimate_irradiance(const LightingContext& lighting, const surface::Shadin
   double total = 0, chosen_importance = 0, left = u[0];
   const LampImage* chosen = nullptr;
   for (const std::uint32_t i : images_at(lighting, point.at)) {
-    const LampImage& image = lighting.images[i];
+    const LampImage& image = lighting.lamps->images[i];
     const double own = importance(lighting, image, point);
     if (own <= 0) continue;
     total += own;

@@ -24,14 +24,23 @@ struct LightOptions {
 /// The options that a scene asks for.
 [[nodiscard]] LightOptions light_options(const scene::Scene& scene);
 
-/// All that is needed to light a point of a room. Made once for a scene, shared by the tracer and the bake.
+/// The lamps of a scene and their mirror images.
+struct LampSet {
+  std::vector<PlacedLamp> lamps;
+  std::vector<LampImage> images;
+  Diagnostics warnings;  ///< those of place_lamps
+};
+/// Places the lamps of a scene and finds their images. In: the room without lamp bodies; the options that prepare_light gets.
+/// Diagnostics: those of place_lamps, lamps_inside_objects and lamp_images.
+[[nodiscard]] Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options);
+
+/// All that is needed to light a point of a room. Made once for a scene, shared by the tracer and the bake. Copies share what is large.
 struct LightingContext {
   bool lit = false;  ///< false: neither lamps nor `integrator: path`; surfaces show their albedo
   scene::Color ambient;
   double exposure = 1;
   LightOptions options;
-  std::vector<PlacedLamp> lamps;
-  std::vector<LampImage> images;
+  std::shared_ptr<const LampSet> lamps = std::make_shared<const LampSet>();
   LightCullGrid cull_grid;                                  ///< which images matter where
   std::vector<surface::PartNormals> normals;                ///< per part of the room
   std::shared_ptr<const place::PlacedRoom> shadow_casters;  ///< the room without the bodies of its lamps
@@ -40,11 +49,13 @@ struct LightingContext {
 
 /// The lamp of an image.
 [[nodiscard]] inline const PlacedLamp& lamp_of_image(const LightingContext& lighting, const LampImage& image) {
-  return lighting.lamps[static_cast<std::size_t>(image.lamp)];
+  return lighting.lamps->lamps[static_cast<std::size_t>(image.lamp)];
 }
 
-/// Places the lamps, finds their images and prepares shadow rays. In: the room with lamp bodies (add_lamp_bodies).
-/// Diagnostics: those of place_lamps and lamp_images.
+/// Prepares shadow rays and the normals of all parts. In: the room with lamp bodies (add_lamp_bodies); the scene's lamps.
+[[nodiscard]] LightingContext prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, std::shared_ptr<const LampSet> lamps,
+                                            const LightOptions& options = {}, const Executor& executor = serial_executor());
+/// The same for a scene whose lamps have not been prepared. Diagnostics: those of place_lamps and lamp_images.
 [[nodiscard]] Result<LightingContext> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room,
                                                     const LightOptions& options = {}, const Executor& executor = serial_executor());
 

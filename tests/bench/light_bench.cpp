@@ -26,7 +26,7 @@ void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator
     points = static_cast<double>(baked.counts.lit_points), texels = static_cast<double>(baked.counts.texels);
   }
   state.counters["points"] = points, state.counters["texels"] = texels,
-  state.counters["images"] = static_cast<double>(lighting.images.size());
+  state.counters["images"] = static_cast<double>(lighting.lamps->images.size());
 }
 
 // Rays of a small picture, followed through the mirrors: what a stream of camera rays takes a piece.
@@ -55,7 +55,7 @@ void shadow(benchmark::State& state) {
   for (const trace::Ray& ray : camera_rays()) {
     const trace::Hit hit = trace::closest(scene, ray);
     const geometry::Position at = trace::position_at(scene.prism.space, ray, hit.t);
-    const trace::Segment way = trace::segment_between(scene.prism.space, at, lighting.lamps.front().centre);
+    const trace::Segment way = trace::segment_between(scene.prism.space, at, lighting.lamps->lamps.front().centre);
     rays.push_back(way.ray);
     rays.back().t_min = trace::kLeave;
     lengths.push_back(way.length);

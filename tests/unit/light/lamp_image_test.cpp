@@ -44,17 +44,19 @@ TEST_CASE("images that give too little light are left out, and no point of the r
     light::LightOptions options;
     options.bounces = 5;
     light::LightingContext lighting = light::prepare_light(h.scene, h.room, options).value();
-    const std::size_t kept = lighting.images.size();
+    const std::size_t kept = lighting.lamps->images.size();
     const auto irradiance = [&](double r, double z) {
       const geometry::Point p = geometry::point_along(h.room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), r);
       return light::irradiance(lighting, {{p, z}, {{0, 0, 0}, z > 0 ? -1.0 : 1.0}, {p, z}, -1, false}).r;
     };
     const double reach = 0.9 * h.room.room.inradius;
     const double centre = irradiance(0, 0), rim = irradiance(reach, 0), above = irradiance(reach, h.room.height);
-    lighting.images = light::lamp_images(lighting.lamps, h.room, {5, 1, 0}).value();
-    lighting.cull_grid = {0, 0, 0, 0, {std::vector<std::uint32_t>(lighting.images.size())}};
-    for (std::uint32_t i = 0; i < lighting.images.size(); ++i) lighting.cull_grid.images[0][i] = i;
-    CHECK(kept < lighting.images.size());
+    light::LampSet all = *lighting.lamps;
+    all.images = light::lamp_images(all.lamps, h.room, {5, 1, 0}).value();
+    lighting.lamps = std::make_shared<const light::LampSet>(std::move(all));
+    lighting.cull_grid = {0, 0, 0, 0, {std::vector<std::uint32_t>(lighting.lamps->images.size())}};
+    for (std::uint32_t i = 0; i < lighting.lamps->images.size(); ++i) lighting.cull_grid.images[0][i] = i;
+    CHECK(kept < lighting.lamps->images.size());
     CHECK(irradiance(0, 0) == Approx(centre).epsilon(1e-12));
     CHECK(irradiance(reach, 0) == Approx(rim).epsilon(1e-12));
     CHECK(irradiance(reach, h.room.height) == Approx(above).epsilon(1e-12));

@@ -109,7 +109,7 @@ TEST_CASE("light over a mirror is the light of an image behind it, times the ref
   const Lit straight = lit(scene, 0), once = lit(scene, 1);
   const geometry::Point p = geometry::point_from_log(Space::euclidean, {0.05, -0.1});
   double expected = on_floor(straight, p, 0, 1);
-  const Position lamp = straight.lighting.lamps[0].centre;
+  const Position lamp = straight.lighting.lamps->lamps[0].centre;
   for (int w = 0; w < 4; ++w) {
     const geometry::Point image = room::reflection_in_wall(straight.room.room, w) * lamp.floor;
     const double l = std::hypot(geometry::distance(Space::euclidean, image, p), lamp.z);
@@ -121,9 +121,9 @@ TEST_CASE("light over a mirror is the light of an image behind it, times the ref
 TEST_CASE("on a half sphere light comes back from the mirror, past the antipode", "[light]") {
   scene::Scene scene = lit_scene("*", scene::LampKind::point, true);
   const Lit l = lit(scene, 2);
-  REQUIRE(l.lighting.images.size() == 5);  // straight, and around both ways; by the mirror, near and far
+  REQUIRE(l.lighting.lamps->images.size() == 5);  // straight, and around both ways; by the mirror, near and far
   const geometry::Point p = geometry::point_from_log(Space::spherical, {-0.4, 0.3});
-  const Position lamp = l.lighting.lamps[0].centre;
+  const Position lamp = l.lighting.lamps->lamps[0].centre;
   double expected = 0;
   const double d = geometry::distance(Space::spherical, p, lamp.floor);
   const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.room.room, 0) * lamp.floor);
@@ -139,22 +139,24 @@ TEST_CASE("on a half sphere light comes back from the mirror, past the antipode"
 TEST_CASE("rooms that are no orbifolds get each image only through its own mirrors", "[light]") {
   scene::Scene scene = scene::default_scene(notation::parse("*2222").value());
   const Lit by_group = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
-  std::vector<light::LampImage> images = by_group.lighting.images;
+  std::vector<light::LampImage> images = by_group.lighting.lamps->images;
   CHECK(images.size() == 13);
   // The same room, asked word by word, gives the same light.
   Lit by_words = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
   place::PlacedRoom other = by_words.room;
   other.room.orbifold.corners[0] = Rational(5, 2);  // only what decides how images are listed
-  by_words.lighting.images = light::lamp_images(by_words.lighting.lamps, other).value();
+  light::LampSet set = *by_words.lighting.lamps;
+  set.images = light::lamp_images(set.lamps, other).value();
+  by_words.lighting.lamps = std::make_shared<const light::LampSet>(std::move(set));
   by_words.lighting.cull_grid = light::make_light_cull_grid(by_words.lighting, serial_executor());
-  CHECK(by_words.lighting.images.size() == 1 + 4 + 12);
+  CHECK(by_words.lighting.lamps->images.size() == 1 + 4 + 12);
   for (const double x : {0.03, 0.21, -0.17}) {
     const geometry::Point p = geometry::point_from_log(Space::euclidean, {x, 0.111});
     CHECK(on_floor(by_words, p, 0, 1) == Approx(on_floor(by_group, p, 0, 1)).epsilon(1e-9));
   }
 }
 
-TEST_CASE("a lamp that reaches through a wall is refused; one without power is told", "[light]") {
+TEST_CASE("a lamp that reaches through a wall is refused; one without power is warned of", "[light]") {
   scene::Scene scene = lit_scene("*2222", scene::LampKind::sphere, true);
   scene.lamps[0].place.z = scene.room.height;
   const auto room = room::realise(scene.orbifold, scene.room.shape).value();
@@ -166,13 +168,13 @@ TEST_CASE("a lamp that reaches through a wall is refused; one without power is t
   CHECK(light::place_lamps(scene, room)->warnings.front().code == "light.no-power");
 }
 
-TEST_CASE("the samples of a pixel together see the light that one alone sees, with fewer shadow rays each", "[light]") {
+TEST_CASE("the mean over the strata of a pixel is the light of a single full sample", "[light]") {
   for (const char* orbifold : {"*222", "*333", "*22222"})
     for (const scene::LampKind kind : {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::rectangle}) {
       scene::Scene scene = lit_scene(orbifold, kind, true);
       scene.lamps.front().power = 3;
       const Lit l = lit(scene, 3);
-      REQUIRE(l.lighting.images.size() > 5);
+      REQUIRE(l.lighting.lamps->images.size() > 5);
       for (const int samples : {2, 4, 9, 16, 64}) {
         double most = 0, spread = 0;
         for (int k = 0; k < 20; ++k) {

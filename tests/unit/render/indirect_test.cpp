@@ -252,7 +252,7 @@ TEST_CASE("the stated error of a path-traced film is the spread between seeds, a
   CHECK(render::rms_noise(a, 1) > 0);
 }
 
-TEST_CASE("every turn of a pixel comes once, and those with one remainder are spread over the pixel", "[render]") {
+TEST_CASE("every stratum of a pixel occurs once, and strata with equal remainders are spread over the pixel", "[render]") {
   for (int samples = 1; samples <= 100; ++samples) {
     const auto points = render::sample_points(samples);
     std::vector<int> seen(static_cast<std::size_t>(samples), 0);
@@ -277,7 +277,7 @@ TEST_CASE("every turn of a pixel comes once, and those with one remainder are sp
   }
 }
 
-TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that it gives", "[render]") {
+TEST_CASE("the mean of estimates by one shadow ray is the irradiance of the lamps", "[render]") {
   for (const char* notation : kRooms) {
     scene::Scene s = bare(notation, {0.5, 0.5, 0.5}, true);
     scene::Lamp lamp;
@@ -301,7 +301,7 @@ TEST_CASE("what a lamp gives a point by one shadow ray is, in the mean, all that
   }
 }
 
-TEST_CASE("where a box stands on the floor the bake shows what paths find, with no dark or bright band", "[render]") {
+TEST_CASE("where a box stands on the floor the bake agrees with path tracing, without a dark or bright band", "[render]") {
   scene::Scene s = bare("*2222", {0.7, 0.7, 0.7}, false);
   s.objects.resize(1);
   s.objects[0].shape = scene::BoxSpec{{0.2, 0.2, 0.3}};

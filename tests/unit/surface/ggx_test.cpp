@@ -32,7 +32,7 @@ double sky(const Vector3& d) { return 1 + 0.8 * d.x - 0.3 * d.z; }
 
 }  // namespace
 
-TEST_CASE("what facets mirror is the integral of the microfacet model over all directions", "[surface]") {
+TEST_CASE("the mean over sampled directions is the integral of the microfacet model over all directions", "[surface]") {
   for (const Space space : {Space::spherical, Space::euclidean, Space::hyperbolic})
     for (const double roughness : {0.3, 0.6, 1.0})
       for (const double facing : {0.9, 0.4}) {
@@ -69,7 +69,7 @@ TEST_CASE("what facets mirror is the integral of the microfacet model over all d
       }
 }
 
-TEST_CASE("a smooth metal mirrors as a mirror does", "[surface]") {
+TEST_CASE("a smooth metal reflects as a mirror does", "[surface]") {
   const trace::SurfacePoint point = met(Space::hyperbolic, 0.5);
   const trace::Direction expected = point.arriving + (2 * 0.5) * point.normal;
   for (int k = 0; k < 50; ++k) {
@@ -82,7 +82,7 @@ TEST_CASE("a smooth metal mirrors as a mirror does", "[surface]") {
   }
 }
 
-TEST_CASE("metals mirror their colour face on, and white at grazing angles; gloss mirrors a twenty-fifth", "[surface]") {
+TEST_CASE("metals reflect their colour at normal incidence and white at grazing angles; gloss reflects a twenty-fifth", "[surface]") {
   scene::Material metal, glossy;
   metal.kind = scene::MaterialKind::metal, glossy.kind = scene::MaterialKind::glossy;
   const scene::Color gold{1, 0.78, 0.34};
@@ -91,7 +91,8 @@ TEST_CASE("metals mirror their colour face on, and white at grazing angles; glos
   CHECK(surface::f0(glossy, gold).r == Approx(0.04));
 }
 
-TEST_CASE("the ways of a metal, and any even part of them from an even one on, look about the mirrored way", "[surface]") {
+TEST_CASE("the directions sampled for a metal, and any even number of them from an even one on, have the reflected direction as their mean",
+          "[surface]") {
   for (const int n : {2, 4, 8, 16, 32, 64, 128, 256}) {
     double across = 0, up = 0, depth = 0;
     for (int k = 0; k < n; ++k) {
@@ -111,7 +112,7 @@ TEST_CASE("the ways of a metal, and any even part of them from an even one on, l
   }
 }
 
-TEST_CASE("the facets of the second and third metal on a way are independent of the first's", "[surface]") {
+TEST_CASE("the samples of the second and third metal on a path are independent of the first's", "[surface]") {
   constexpr int kWays = 256;
   for (const int metal : {1, 2})
     for (const std::size_t a : {0u, 1u})

@@ -1,4 +1,4 @@
-// Laws of light that surfaces pass on.
+// Laws of indirect light.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -72,7 +72,7 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
   // Power per area by the falloff, times area, against the share of directions that lead there: in all three spaces, from the lamp's side.
   for (const char* notation : {"*222", "*2222", "*22222"}) {
     const Lit l = lit(notation, 0.8, false);
-    const geometry::Position lamp = l.lighting.lamps[0].centre;
+    const geometry::Position lamp = l.lighting.lamps->lamps[0].centre;
     const Space space = l.room.room.space;
     surface::Random random(5);
     constexpr int kCount = 400000;
