@@ -1,6 +1,6 @@
 // sin, cos, tan: reduction by π/2 in three pieces (Cody and Waite, Software manual for the elementary functions, 1980), polynomials by
 // interpolation at Chebyshev nodes, errors below 1e-17. atan: the nearest 64th from a table and the addition theorem. asin: a polynomial up
-// to ½, beyond by half the angle.
+// to ½, beyond it of half the angle.
 #include <array>
 #include <limits>
 
@@ -20,7 +20,7 @@ double polynomial(double y, const double (&c)[N]) {
   return sum;
 }
 
-/// An angle less a multiple of π/2: what is left, in [−π/4, π/4], and the quadrant.
+/// An angle = rest + quadrant · π/2, with the rest in [−π/4, π/4] and the quadrant modulo 4.
 struct Reduced {
   Pair rest;
   int quadrant = 0;
@@ -37,7 +37,7 @@ Reduced reduce(double x) {
   return {fast_sum_of(t.high, t.low - n * kThird), x == x ? static_cast<int>(static_cast<long long>(n) & 3) : 0};
 }
 
-/// sin and cos of high + low in [−π/4, π/4], as sums that are still to be rounded.
+/// sin and cos of high + low in [−π/4, π/4], as unevaluated sums.
 Pair sine_of(const Pair& r) {
   static constexpr double kSine[] = {-0.16666666666666666,   0.008333333333333331,  -0.00019841269841265063, 2.7557319219337312e-06,
                                      -2.5052106231802837e-08, 1.6058531516797758e-10, -7.586691094197958e-13};
@@ -84,10 +84,10 @@ Pair arc_of(double small, double big) {
   return fast_sum_of(arc.high, arc.low + (t + t * y * polynomial(y, kSeries)));
 }
 
-/// a − b for a > b as pairs, rounded.
+/// a − b for a > b, rounded.
 Pair less(const Pair& a, const Pair& b) { return add(a, {-b.high, -b.low}); }
 
-/// asin x for 0 ≤ x ≤ ½, x as a pair: what is to be added to it.
+/// asin x − x for 0 ≤ x ≤ ½.
 double asin_tail(double x) {
   static constexpr double kSeries[] = {0.16666666666666669,  0.07499999999998433,  0.04464285714635545,  0.030381944138529803,
                                        0.022372172942209625, 0.017352392719417624, 0.01397121299584485,  0.01147917719077423,

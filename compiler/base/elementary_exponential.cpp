@@ -1,6 +1,6 @@
 // exp and log by tables of 128 entries and short polynomials (Tang, Table-driven implementation of the exponential function, 1989, and of
-// the logarithm, 1990), with tails so that pow, the hyperbolic functions and their inverses lose nothing. The tables are computed from the
-// series by the compiler, in pairs.
+// the logarithm, 1990). Results have a low part, so that pow, the hyperbolic functions and their inverses are as accurate. The compiler
+// computes the tables from the series, in pairs.
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -50,7 +50,7 @@ struct Scaled {
   int k = 0;
 };
 
-/// exp(x + low). In: |x| < 1100, |low| tiny beside 1.
+/// exp(x + low). In: |x| < 1100, |low| far below 1.
 Scaled exp_of(double x, double low) {
   constexpr double kMagic = 0x1.8p52, kPerPart = kParts / 0.69314718055994531;
   constexpr double kPartHigh = 0x1.62e42fef8p-8, kPartLow = 0x1.1cf79abc9e3b4p-43;  // ln 2/128; the high part times n is exact
@@ -62,7 +62,7 @@ Scaled exp_of(double x, double low) {
   return {fast_sum_of(t.high, t.low + t.high * p), static_cast<int>(whole >> 7)};
 }
 
-/// (high + low)·2^k, rounded; overflows and underflows as it should.
+/// (high + low)·2^k, rounded, with overflow and underflow as in IEEE 754.
 double rounded(const Scaled& x) {
   const double m = x.mantissa.high + x.mantissa.low;
   if (x.k > -1022 && x.k < 1023) return from_bits(bits_of(m) + (static_cast<std::uint64_t>(static_cast<std::int64_t>(x.k)) << 52));
@@ -74,7 +74,8 @@ double rounded(const Scaled& x) {
 
 // ---- log ---------------------------------------------------------------------------------------------------------------------------
 
-/// Near an interval of mantissas: its inverse in 128ths, and the negative logarithm of that, of which the high part is a multiple of 2^-42.
+/// For an interval of mantissas: the inverse of a number near it, a multiple of 1/128, and the negative logarithm of this inverse, whose
+/// high part is a multiple of 2^-42.
 struct Node {
   double inverse = 1;
   Pair log;
@@ -106,7 +107,7 @@ double cubic_tail(double r) {
   return r * r * r * ((1.0 / 3 - r * (1.0 / 4)) + r * r * ((1.0 / 5 - r * (1.0 / 6)) + r * r * (1.0 / 7 - r * (1.0 / 8))));
 }
 
-/// log(x + low) = (exact + r) + rest − r²/2 + …: what is to be added up.
+/// The terms of log(x + low) = (exact + r) + rest − r²/2 + r³/3 − ….
 struct LogParts {
   double exact = 0, r = 0, rest = 0;
 };
@@ -134,7 +135,7 @@ double rounded(const LogParts& parts) {
   return s.high + (s.low + (parts.rest + (cubic_tail(parts.r) - 0.5 * parts.r * parts.r)));
 }
 
-/// To about 2^-67 of the result.
+/// Relative error: about 2^-67.
 Pair paired(const LogParts& parts) {
   const Pair s = sum_of(parts.exact, parts.r), square = product_of(parts.r, parts.r);
   const Pair t = sum_of(s.high, -0.5 * square.high);

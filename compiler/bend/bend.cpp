@@ -30,7 +30,7 @@ struct ModelPart {
   bool unsplit = false;
 };
 
-/// What is the same for all copies.
+/// Input and prepared data that all copies share.
 struct BendContext {
   DrawList list;
   std::vector<EdgeMesh> meshes;  // every mesh of the models, once
@@ -94,7 +94,7 @@ class CopyParts {
   CopyParts(const BendContext& context, std::size_t index) {
     const cover::Copy& copy = context.list.copies[index];
     const auto storey = context.storeys.find(copy.storey.number);
-    // Wedges are those of the eye, whatever the view.
+    // Wedges belong to the eye, also for View::disk.
     const LogMap eye_map{context.eye_from_room.space, geometry::matrix(context.eye_from_room * copy.cover_from_room), copy.sheet};
     for (const ModelPart& part : model_of(context, index)) {
       const EdgeMesh& whole = storey == context.storeys.end() ? context.meshes[part.mesh] : storey->second[part.mesh]->part;

@@ -32,7 +32,7 @@ struct Model {
 /// All parts of a room. In: uv parallel to its parts; both must outlive the model.
 [[nodiscard]] Model whole_model(const place::PlacedRoom& room, const std::vector<Uv>& uv);
 
-/// What is bent: copies, and the model that each is drawn from.
+/// The input of bend(): copies, and the model that each is drawn from.
 struct DrawList {
   std::span<const cover::Copy> copies;
   std::span<const Model> models;

@@ -15,7 +15,7 @@ struct ClippedPart {
 enum class WedgeOverlap { inside, partial, outside };
 
 /// How a part lies to the wedge of its copy, from its bounding circle: `partial` when the circle does not decide.
-/// In: a margin in radians at the eye; what is closer to a border counts as partial.
+/// In: a margin in radians at the eye; parts closer to a border count as partial.
 [[nodiscard]] WedgeOverlap wedge_overlap(const cover::Wedge& wedge, const LogMap& map, const EdgeMesh& part, double margin = 0);
 
 /// The triangles of a part that overlap the wedge of its copy, uncut. They are bent and then clipped (clip_in_eye_space.h).

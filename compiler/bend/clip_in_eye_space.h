@@ -5,7 +5,7 @@
 
 namespace orbc::bend {
 
-/// Clips bent copies to their wedges and height bounds (cover/copy.h), so that each shows only what the eye sees of it.
+/// Clips bent copies to their wedges and height bounds (cover/copy.h), so that each is drawn only where the eye sees it.
 /// In:     a cover bent for View::eye from `copies`, where copies with a wedge have all triangles that overlap it, uncut
 ///         (triangles_touching); how far, in pixels, a cut may be from the true surface of a height bound.
 /// Makes:  triangles cut by the upright planes through the eye at the borders of wedges. A height bound becomes a polyline as the eye sees

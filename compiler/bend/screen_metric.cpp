@@ -1,6 +1,6 @@
-// An error counts as it is seen: a chord is wrong by the angle between the true point and the nearest visible point of the chord. The depth
-// along the line of sight cannot be seen, but it decides what hides what and where surfaces intersect. So it may be wrong by as much and
-// no more. What lies outside of a perspective picture, by more than its own error, may be kOffscreenFactor times coarser: it is never
+// The error of a chord is the angle, at the eye, between a true point and the nearest visible point of the chord. The depth along the line
+// of sight is invisible, but it decides which surface hides which and where surfaces intersect; so its relative error has the same bound.
+// Chords that lie outside of a perspective picture by more than their own error may be kOffscreenFactor times coarser: they are never
 // drawn, but the exported scene can be turned in a viewer and should still show a room.
 #include "compiler/bend/screen_metric.h"
 

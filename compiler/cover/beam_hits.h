@@ -27,7 +27,7 @@ struct Reflections {
   std::vector<int> letter_of_wall;     ///< orbifolds: letter of the automaton, −1 for end walls of strips
   std::vector<int> wall_of_letter;
 };
-/// In: the longest word that will be asked for.
+/// In: the length of the longest word that the automaton must know.
 [[nodiscard]] Reflections reflections_of(const place::PlacedRoom& room, int max_length);
 
 /// The isometry of a group element. Exact: it depends on the normal form alone, so that all copies of an element fit together bit by bit.

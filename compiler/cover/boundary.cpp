@@ -73,7 +73,7 @@ int index_of_throughput(Boundary& boundary, const scene::Color& throughput) {
   return index;
 }
 
-/// Divides the heights between bands that differ. Plain wall above or below a mirror needs no division: it hides what is behind it.
+/// Divides the heights between bands of different throughput. Plain wall needs no aperture of its own: it hides everything behind it.
 std::vector<Aperture> apertures_of(Boundary& boundary, const Bands& bands) {
   std::vector<Aperture> apertures;
   for (const MirrorBand& band : bands) apertures.push_back({index_of_throughput(boundary, band.throughput)});

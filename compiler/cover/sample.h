@@ -15,7 +15,7 @@ struct Sample {
   double weight = 1;
 };
 
-/// What copies are drawn from: a room, and models of it. A model is a list of meshes, one for each part that it draws.
+/// The meshes of copies. A model is a list of meshes, one for each part of the room that it draws; every copy is drawn from one model.
 struct Contents {
   const place::PlacedRoom* room = nullptr;
   std::vector<std::vector<const place::PlacedMesh*>> models;

@@ -22,7 +22,7 @@ struct WeightedStorey {
 ///          upwards pass the ceiling first, then floor and ceiling in turn.
 [[nodiscard]] std::vector<WeightedStorey> storeys_within(const place::PlacedRoom& room, int max_bounces);
 
-/// Puts every copy on every storey. Bounces add up and weights multiply, whatever the order in which a ray meets walls, floor and ceiling.
+/// Puts every copy on every storey. Bounces add up and weights multiply: they do not depend on the order in which a ray meets its mirrors.
 /// Makes:       copies by bounces; for one number of bounces in the given order, then by storey. Limits of `spec` are applied.
 /// Diagnostics: cover.too-much beyond `max_copies`.
 [[nodiscard]] Result<std::vector<Copy>> with_storeys(const std::vector<Copy>& copies, const place::PlacedRoom& room,

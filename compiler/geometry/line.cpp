@@ -1,4 +1,4 @@
-// Lines are planes through the origin of the ambient space, kept by their normal covector (Thurston, Three-Dimensional Geometry
+// Lines are planes through the origin of the ambient space, stored as normal covectors (Thurston, Three-Dimensional Geometry
 // and Topology, §2.4: hyperboloid model; the same algebra serves the sphere and, with w as scale, the plane).
 #include "compiler/geometry/line.h"
 

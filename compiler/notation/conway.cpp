@@ -8,7 +8,7 @@
 namespace orbc::notation {
 namespace {
 
-// "4*2", "22x", "∞∞": gyration points ascending, boundaries as small as rotation makes them.
+// "4*2", "22x", "∞∞": gyration points in ascending order, boundaries in their lexicographically smallest rotation.
 std::string key_of(const ConwaySymbol& symbol) {
   const auto number = [](int order) {
     return order == 0 ? std::string("∞") : order < 10 ? std::to_string(order) : fmt::format("({})", order);
@@ -44,7 +44,7 @@ const std::map<std::string, std::string>& fixed_names() {
   return names;
 }
 
-// The families of spherical groups that have one turn of any order k.
+// The families of spherical groups with one rotation of any order k.
 std::string family_name(const ConwaySymbol& symbol) {
   std::vector<int> gyrations = symbol.gyrations;
   std::sort(gyrations.begin(), gyrations.end());

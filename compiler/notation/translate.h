@@ -12,8 +12,8 @@ struct Translation {
   std::string hint;     ///< what to write instead
 };
 
-/// Reads what is no symbol of Conway's: wallpaper groups (p6m, p31m), point groups (Ih, D3h, m-3m, 4/mmm), Schläfli's {7,3}, Coxeter's
-/// [3,7], triangle groups (2,3,7) and Δ(2,3,7), Wythoff's 3 | 2 7, finite Coxeter groups by name (H3).
+/// Translates symbols of other notations into Conway's: wallpaper groups (p6m, p31m), point groups (Ih, D3h, m-3m, 4/mmm), Schläfli's
+/// {7,3}, Coxeter's [3,7], triangle groups (2,3,7) and Δ(2,3,7), Wythoff's 3 | 2 7, finite Coxeter groups by name (H3).
 /// In:     ASCII text without blanks at its ends; ∞ as "inf", Δ as "Delta", an overlined digit as "-3", subscripts as plain characters.
 /// Makes:  nothing when the text is none of these. Orders are not checked here.
 /// Source: International Tables for Crystallography A (2016); Conway, Burgiel, Goodman-Strauss, The symmetries of things (2008), ch. 8;

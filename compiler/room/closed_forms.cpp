@@ -1,4 +1,4 @@
-// The rooms that no circle equation gives: lunes and rectangles, in closed form.
+// Lunes and rectangles, which need no inscribed circle.
 #include "compiler/room/polygon.h"
 
 namespace orbc::room {

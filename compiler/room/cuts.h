@@ -12,7 +12,7 @@ struct CutSegment {
   geometry::Point from, to;    ///< its feet on them
 };
 
-/// The cuts of the paper's forward decomposition into `*22k₃k₄` quads and `*2222k` pentagons, on the room as it is, whatever its shape.
+/// The cuts of the paper's forward decomposition into `*22k₃k₄` quads and `*2222k` pentagons, in a room of any shape.
 /// Makes: N − 3 segments in H² with N ≥ 4 corners; none elsewhere, and none where walls have no common perpendicular inside the room.
 /// Error: that of the stored lines.
 [[nodiscard]] std::vector<CutSegment> cut_segments(const Room& room);

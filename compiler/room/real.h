@@ -27,7 +27,7 @@ struct RealVector {
 [[nodiscard]] inline Real value_at(const RealVector& line, const RealVector& v) { return line.w * v.w + line.x * v.x + line.y * v.y; }
 /// κ·w·w' + x·x' + y·y': 1 for unit tangents and unit lines, κ for points of S² and H².
 [[nodiscard]] inline Real inner(int k, const RealVector& a, const RealVector& b) { return k * (a.w * b.w) + a.x * b.x + a.y * b.y; }
-/// Of two points: the line through them, to its left what is left on the way; of two lines: where they meet.
+/// Of two points: the line from the first through the second. Of two lines: their intersection.
 [[nodiscard]] inline RealVector cross(const RealVector& p, const RealVector& q) {
   return {p.x * q.y - p.y * q.x, p.y * q.w - p.w * q.y, p.w * q.x - p.x * q.w};
 }

@@ -30,7 +30,7 @@ Diagnostic unused(std::string_view what, std::string_view where) {
   return make_error("room.unused-setting", fmt::format("{} means something only {}", what, where), "leave it out");
 }
 
-// Settings that this room cannot use are mistakes, like unknown keys.
+// A setting that has no effect on this room is an error, as an unknown key is.
 Diagnostics shape_faults(const Shape& shape, Space space, bool strip, bool rectangle) {
   Diagnostics faults;
   const auto good = [](double size) { return size >= kMinScale && size <= kMaxScale; };
@@ -83,7 +83,7 @@ Result<Polygon> polygon_of(Space space, const std::vector<Rational>& orders, con
   if (orders.size() == 2) return lune(angles[0]);
   if (space == Space::hyperbolic) return hyperbolic_polygon(angles, shape);
   if (orders.size() == 4 && all_right_angles(orders)) {
-    // The shorter side is 2·scale, so that `scale` is the radius of the largest circle inside whatever the aspect.
+    // The shorter side is 2·scale, so that `scale` is the radius of the largest inscribed circle for every aspect.
     const Real short_side = 2 * Real(shape.scale), ratio = shape.aspect;
     return shape.aspect >= 1 ? rectangle(short_side * ratio, short_side) : rectangle(short_side, short_side / ratio);
   }

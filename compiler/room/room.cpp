@@ -11,8 +11,8 @@ using geometry::Space;
 using geometry::Tangent;
 
 Point point_on_wall(const Room& room, int wall, double s) {
-  // Measured from the wall's point nearest to the origin, F: there no coordinate is large, while from a far corner cosκ s·P + sinκ s·V
-  // would cancel.
+  // Measured from F, the point of the wall nearest to the origin, where no coordinate is large. From a far corner cosκ s·P + sinκ s·V would
+  // cancel.
   const Wall& w = room.walls[static_cast<std::size_t>(wall)];
   const double h = math::hypot(w.line.x, w.line.y);
   if (h < 1e-8) return geometry::point_along(room.space, w.start, w.along, s);  // an equator has no nearest point
