@@ -17,7 +17,7 @@
 namespace orbc::bake {
 namespace {
 
-using place::Look;
+using place::SurfaceStyle;
 using place::PartKind;
 using place::PlacedMesh;
 using Texel = std::array<std::uint8_t, 4>;
@@ -32,13 +32,13 @@ struct Cell {
   std::array<std::uint16_t, 3> color16{};  ///< with 16 bits a channel
   std::array<double, 3> tint{1, 1, 1};
   bool tiles = false;
-  double cutoff = -1;                               ///< of holes, as in Look
+  double cutoff = -1;                               ///< of holes, as in SurfaceStyle
   int width = kColorTexels, height = kColorTexels;  ///< with gutters
   int x = 0, y = 0;
   [[nodiscard]] auto key() const { return std::tuple(texture, color, color16, tint, tiles, cutoff); }
 };
 
-Cell cell_of(const place::PlacedRoom& room, const Look& look, bool tiles) {
+Cell cell_of(const place::Interior& room, const SurfaceStyle& look, bool tiles) {
   Cell cell;
   if (look.texture < 0) {
     cell.color = {image::encode_srgb8(look.color.r), image::encode_srgb8(look.color.g), image::encode_srgb8(look.color.b), 255};
@@ -49,7 +49,7 @@ Cell cell_of(const place::PlacedRoom& room, const Look& look, bool tiles) {
   cell.texture = look.texture;
   cell.tint = {look.color.r, look.color.g, look.color.b};
   cell.tiles = tiles;
-  cell.cutoff = look.cutoff;
+  cell.cutoff = look.alpha_cutoff;
   cell.width = image.width + 2 * kGutter;
   cell.height = image.height + 2 * kGutter;
   return cell;
@@ -62,16 +62,16 @@ struct Layout {
   int width = 0, height = 0;
 };
 
-Layout collect(const place::PlacedRoom& room) {
+Layout collect(const place::Interior& room) {
   Layout layout;
-  layout.of_look.assign(room.looks.size(), {-1, -1});
+  layout.of_look.assign(room.styles.size(), {-1, -1});
   std::map<decltype(Cell{}.key()), int> known;
   for (const PlacedMesh& part : room.parts)
-    for (const std::uint16_t look : part.look) {
+    for (const std::uint16_t look : part.style) {
       const bool tiles = part.kind != PartKind::object;
       int& cell = layout.of_look[look][tiles];
       if (cell >= 0) continue;
-      Cell made = cell_of(room, room.looks[look], tiles);
+      Cell made = cell_of(room, room.styles[look], tiles);
       const auto [at, is_new] = known.try_emplace(made.key(), static_cast<int>(layout.cells.size()));
       if (is_new) layout.cells.push_back(made);
       cell = at->second;
@@ -86,7 +86,7 @@ Texel texel_of(const image::Image& image, const Cell& cell, const std::array<std
           static_cast<std::uint8_t>(image.rgba[at + 3] < cell.cutoff * 255 ? 0 : 255)};
 }
 
-void draw(const place::PlacedRoom& room, const Cell& cell, image::Image& atlas) {
+void draw(const place::Interior& room, const Cell& cell, image::Image& atlas) {
   std::array<std::array<std::uint8_t, 256>, 3> tint;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < 256; ++i) {
@@ -101,7 +101,7 @@ void draw(const place::PlacedRoom& room, const Cell& cell, image::Image& atlas) 
 }
 
 /// Draws a cell with 16 bits a channel, from the full precision of colours and tints.
-void draw(const place::PlacedRoom& room, const Cell& cell, image::Image16& atlas) {
+void draw(const place::Interior& room, const Cell& cell, image::Image16& atlas) {
   std::array<std::array<std::uint16_t, 256>, 3> tint;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < 256; ++i)
@@ -145,7 +145,7 @@ AddressedPart address(const Layout& layout, const PlacedMesh& own) {
   std::vector<std::pair<int, std::uint32_t>> first(own.floor.size(), {-1, 0});
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> others;
   for (std::size_t t = 0; t < own.triangles.size(); ++t) {
-    const int cell = layout.of_look[own.look[t]][own.kind != PartKind::object];
+    const int cell = layout.of_look[own.style[t]][own.kind != PartKind::object];
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t v = own.triangles[t][i];
       const auto next = static_cast<std::uint32_t>(mesh.floor.size());
@@ -187,7 +187,7 @@ image::Image16 blank_image16(int width, int height) {
   return {width, height, std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
 }
 
-Result<Atlas> make_atlas(const place::PlacedRoom& room, const AtlasOptions& options) {
+Result<Atlas> make_atlas(const place::Interior& room, const AtlasOptions& options) {
   Layout layout = collect(room);
   std::vector<TexelRect> rects;
   for (const Cell& cell : layout.cells) rects.push_back({cell.width, cell.height});

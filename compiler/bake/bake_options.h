@@ -1,6 +1,6 @@
 #pragma once
 #include "compiler/light/lighting.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/interior.h"
 #include "compiler/scene/scene.h"
 
 namespace orbc::bake {
@@ -29,10 +29,10 @@ struct BakeOptions {
 /// Whether a material shows what lies around it: mirror and glass always, metal where there is light.
 [[nodiscard]] bool is_specular(const scene::Material& material, bool lit);
 /// Whether any look of a room is specular.
-[[nodiscard]] bool is_specular(const place::PlacedRoom& room, bool lit);
+[[nodiscard]] bool is_specular(const place::Interior& room, bool lit);
 
 /// Whether the plain colours of `make_atlas` do not suffice: there are lamps, light between surfaces, mirror or glass objects, or solid
 /// patterns (which a scene without lamps shows unlit).
-[[nodiscard]] bool needs_bake(const scene::Scene& scene, const place::PlacedRoom& room);
+[[nodiscard]] bool needs_bake(const scene::Scene& scene, const place::Interior& room);
 
 }  // namespace orbc::bake

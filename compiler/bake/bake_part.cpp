@@ -22,7 +22,7 @@ struct LitCorner {
 std::vector<LitCorner> lit_corners(const BakePart& part) {
   std::vector<LitCorner> corners(part.normals.vertices.size());
   for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
-    if (part.room.looks[part.mesh.look[t]].material.kind == scene::MaterialKind::emissive) continue;
+    if (part.room.styles[part.mesh.style[t]].material.kind == scene::MaterialKind::emissive) continue;
     for (std::size_t k = 0; k < 3; ++k)
       if (LitCorner& corner = corners[part.normals.corners[t][k]]; corner.k == 3) corner = {t, k};
   }
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> images_near_vertices(const BakePart& part, std::size_
   double radius = 0;
   for (std::size_t i = first; i < end; ++i) {
     const geometry::Position p = position(i);
-    radius = std::max(radius, math::hypot(geometry::distance(part.room.room.space, centre.floor, p.floor), p.z - centre.z));
+    radius = std::max(radius, math::hypot(geometry::distance(part.room.polygon.space, centre.floor, p.floor), p.z - centre.z));
   }
   return light::images_within(part.lighting, centre, radius);
 }
@@ -51,7 +51,7 @@ BakePoint make_bake_point(const BakePart& part, std::size_t triangle, const std:
   if (!part.base) return made;
   const light::SurfaceProjection foot = light::project_to_surface(part.lighting, made.point, reach);
   made.point = foot.point;
-  if (const PatchUv on = part.base->locator.find_for_lod(foot.hit, part.mesh.look[triangle]); on.patch >= 0)
+  if (const PatchUv on = part.base->locator.find_for_lod(foot.hit, part.mesh.style[triangle]); on.patch >= 0)
     made.known_irradiance = interpolate(part.base->direct[static_cast<std::size_t>(on.patch)], on.u, on.v);
   return made;
 }

@@ -4,7 +4,7 @@
 
 namespace orbc::bake {
 
-BakedLight::BakedLight(const place::PlacedRoom& room, const DiffuseBake& baked) : image_(baked.atlas.image), locator_(room, baked.patches) {
+BakedLight::BakedLight(const place::Interior& room, const DiffuseBake& baked) : image_(baked.atlas.image), locator_(room, baked.patches) {
   for (std::size_t p = 0; p < room.parts.size(); ++p) rects_.insert(rects_.end(), baked.rects[p].begin(), baked.rects[p].end());
 }
 

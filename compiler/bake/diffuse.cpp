@@ -113,7 +113,7 @@ Result<DiffuseBake> pack_texels(const std::vector<PartToPack>& parts, const Bake
   return baked;
 }
 
-Result<DiffuseBake> bake_diffuse(const place::PlacedRoom& room, const light::LightingContext& lighting, const BakeOptions& options,
+Result<DiffuseBake> bake_diffuse(const place::Interior& room, const light::LightingContext& lighting, const BakeOptions& options,
                                  const Executor& executor, const Progress& progress) {
   std::vector<std::vector<TexelPatch>> patches;
   for (std::size_t p = 0; p < room.parts.size(); ++p) {

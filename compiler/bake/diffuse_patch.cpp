@@ -29,14 +29,14 @@ struct PatchStyle {
   bool varies = false;  ///< it has a texture or a pattern
 };
 PatchStyle style_of(const BakePart& part, const TexelPatch& patch) {
-  const int number = part.mesh.look[patch.first];
-  const place::Look& look = part.room.looks[static_cast<std::size_t>(number)];
+  const int number = part.mesh.style[patch.first];
+  const place::SurfaceStyle& look = part.room.styles[static_cast<std::size_t>(number)];
   return {look.material, look.color, surface::varies_in_triangle(part.room, part.mesh, number)};
 }
 
 /// The lamp images that may reach any point of a patch.
 std::vector<std::uint32_t> images_near_patch(const BakePart& part, const TexelPatch& patch) {
-  const geometry::Space space = part.room.room.space;
+  const geometry::Space space = part.room.polygon.space;
   const BarycentricPoint middle = barycentric_point(patch, 0.5, 0.5);
   const geometry::Position centre = surface::shading_point(part.room, part.mesh, part.normals, middle.triangle, middle.b).at;
   double radius = 0;

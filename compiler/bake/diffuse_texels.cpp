@@ -15,7 +15,7 @@ namespace orbc::bake {
 namespace {
 
 struct RoomBake {
-  const place::PlacedRoom& room;
+  const place::Interior& room;
   const std::vector<std::vector<TexelPatch>>& patches;  ///< per part
   const light::LightingContext& lighting;
   const BakeOptions& options;
@@ -33,7 +33,7 @@ struct LitRoom {
 bool is_lod(const light::LightingContext& lighting, std::size_t part) { return lighting.lit && part >= lighting.normals.size(); }
 
 LitRoom light_room(const RoomBake& bake, const Executor& executor, const Progress& progress) {
-  const place::PlacedRoom& room = bake.room;
+  const place::Interior& room = bake.room;
   const light::LightingContext& lighting = bake.lighting;
   LitRoom lit;
   lit.lod_normals.resize(room.parts.size());
@@ -83,7 +83,7 @@ PartTexels shade_part(const RoomBake& bake, const LitRoom& lit, const std::vecto
 
 }  // namespace
 
-DiffuseTexels bake_texels(const place::PlacedRoom& room, const std::vector<std::vector<TexelPatch>>& patches,
+DiffuseTexels bake_texels(const place::Interior& room, const std::vector<std::vector<TexelPatch>>& patches,
                           const light::LightingContext& lighting, const BakeOptions& options, const Executor& executor,
                           const Progress& progress) {
   const RoomBake bake{room, patches, lighting, options};

@@ -62,7 +62,7 @@ struct InsetVertex {
 /// one point, and shadows begin just there; a little further in they do not. In the middle of a smooth surface a vertex stays where it is.
 InsetVertex inset_vertex(const NetPart& part, surface::ShadingPoint point, const NeighbourMean& mean) {
   if (mean.count == 0) return {point, 0};
-  const geometry::Space space = part.surfaces.room.room.space;
+  const geometry::Space space = part.surfaces.room.polygon.space;
   const surface::TangentFrame frame = surface::tangent_frame(space, point.at.floor);
   const geometry::Vector3 n = surface::to_local(space, frame, point.normal);
   const geometry::Vector3 to_mean = surface::to_local(space, frame, {mean.floor - point.at.floor, mean.z - point.at.z});
@@ -87,7 +87,7 @@ std::vector<GatherPoint> vertex_points(const NetPart& part) {
   std::vector<GatherPoint> points;
   for (std::size_t v = 0; v < corners.size(); ++v) {
     const auto [triangle, k] = corners[v];
-    const std::uint16_t look = part.mesh.look[triangle];
+    const std::uint16_t look = part.mesh.style[triangle];
     const InsetVertex inset = inset_vertex(part, surface::shading_point(part.surfaces.room, part.mesh, part.normals.vertices[v]), means[v]);
     points.push_back(make_gather_point(part, inset.point, std::max(light::kVertexTolerance, inset.distance), look));
     if (!part.is_lod) continue;
@@ -129,7 +129,7 @@ NewPatchPoints patch_points(const NetPart& part, const TexelPatch& patch, std::s
         grid.point.push_back(static_cast<std::int32_t>(next + made.inside.size()));
         made.inside.push_back(make_gather_point(part,
                                                 surface::shading_point(part.surfaces.room, part.mesh, part.normals, at.triangle, at.b),
-                                                std::max(patch.length_u, patch.length_v) / 2, part.mesh.look[at.triangle]));
+                                                std::max(patch.length_u, patch.length_v) / 2, part.mesh.style[at.triangle]));
       }
     }
   return made;

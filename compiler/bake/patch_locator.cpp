@@ -42,8 +42,8 @@ int PatchLocator::cell_of(const CellGrid& grid, int c, double at, double shift) 
   return cell > 0 ? static_cast<int>(std::min(cell, grid.cells - 1.0)) : 0;
 }
 
-PatchLocator::PatchLocator(const place::PlacedRoom& room, std::span<const std::vector<TexelPatch>> patches) : room_(room) {
-  shell_parts_.resize(2 + room.room.walls.size());
+PatchLocator::PatchLocator(const place::Interior& room, std::span<const std::vector<TexelPatch>> patches) : room_(room) {
+  shell_parts_.resize(2 + room.polygon.walls.size());
   for (std::size_t p = 0; p < std::min(room.parts.size(), patches.size()); ++p) {
     const PlacedMesh& part = room.parts[p];
     std::vector<std::uint32_t>& of = patch_of_triangle_.emplace_back(part.triangles.size());
@@ -65,9 +65,9 @@ PatchLocator::PatchLocator(const place::PlacedRoom& room, std::span<const std::v
 // Coordinates by which points are sorted into cells; they are bounded on each part. Of floor and ceiling those of the gnomonic chart; on
 // S², where w may vanish, those of the disk chart. Of walls the arc length from the middle of the wall, and z.
 std::array<double, 2> PatchLocator::cell_coordinates(const PlacedMesh& part, const Point& at, double z) const {
-  const geometry::Space space = room_.room.space;
+  const geometry::Space space = room_.polygon.space;
   if (part.kind == PartKind::wall) {
-    const auto [p, v] = in_plane_of_wall(space, room_.room.walls[static_cast<std::size_t>(part.wall)], at);
+    const auto [p, v] = in_plane_of_wall(space, room_.polygon.walls[static_cast<std::size_t>(part.wall)], at);
     const double s = space == geometry::Space::euclidean ? v : space == geometry::Space::spherical ? math::atan2(v, p) : math::atanh(v / p);
     return {s, z};
   }
@@ -80,11 +80,11 @@ std::array<double, 3> PatchLocator::barycentric(const PlacedMesh& part, const me
   std::array<double, 3> b{};
   if (part.kind == PartKind::wall) {
     // Σ bᵢ·(Xᵢ × P) = 0 in the plane that holds the wall, Σ bᵢzᵢ = z, Σ bᵢ = 1.
-    const room::Wall& wall = room_.room.walls[static_cast<std::size_t>(part.wall)];
-    const auto [p, v] = in_plane_of_wall(room_.room.space, wall, at);
+    const room::Wall& wall = room_.polygon.walls[static_cast<std::size_t>(part.wall)];
+    const auto [p, v] = in_plane_of_wall(room_.polygon.space, wall, at);
     geometry::Vector3 corner[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [pk, vk] = in_plane_of_wall(room_.room.space, wall, part.floor[t[k]]);
+      const auto [pk, vk] = in_plane_of_wall(room_.polygon.space, wall, part.floor[t[k]]);
       corner[k] = {pk * v - vk * p, part.z[t[k]] - z, 1};
     }
     for (std::size_t k = 0; k < 3; ++k) {
@@ -110,7 +110,7 @@ std::array<double, 3> PatchLocator::barycentric(const PlacedMesh& part, const me
 PatchLocator::CellGrid PatchLocator::make_cell_grid(const PlacedMesh& part) const {
   CellGrid grid;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const bool sphere = room_.room.space == geometry::Space::spherical;
+  const bool sphere = room_.polygon.space == geometry::Space::spherical;
   double high[2] = {-kInfinite, -kInfinite};
   grid.low[0] = grid.low[1] = kInfinite;
   std::vector<std::array<double, 2>> at;
@@ -178,10 +178,10 @@ PatchUv PatchLocator::find_on_shell(std::size_t p, const trace::SurfacePoint& po
 }
 
 PatchUv PatchLocator::find(const trace::SurfacePoint& point, const trace::Hit& hit) const {
-  if (hit.target == trace::Target::triangle)
+  if (hit.kind == trace::HitKind::triangle)
     return on_triangle(static_cast<std::size_t>(hit.part), static_cast<std::size_t>(hit.triangle), {hit.b[0], hit.b[1], hit.b[2]});
-  const std::size_t flat = hit.target == trace::Target::floor     ? 0
-                           : hit.target == trace::Target::ceiling ? 1
+  const std::size_t flat = hit.kind == trace::HitKind::floor     ? 0
+                           : hit.kind == trace::HitKind::ceiling ? 1
                                                                   : 2 + static_cast<std::size_t>(hit.wall);
   for (const std::size_t p : shell_parts_[flat])
     if (const PatchUv found = find_on_shell(p, point); found.patch >= 0) return found;
@@ -189,9 +189,9 @@ PatchUv PatchLocator::find(const trace::SurfacePoint& point, const trace::Hit& h
 }
 
 PatchUv PatchLocator::find_for_lod(const trace::Hit& hit, std::uint16_t look) const {
-  if (hit.target != trace::Target::triangle) return {};
+  if (hit.kind != trace::HitKind::triangle) return {};
   const auto part = static_cast<std::size_t>(hit.part), triangle = static_cast<std::size_t>(hit.triangle);
-  if (room_.parts[part].look[triangle] != look) return {};
+  if (room_.parts[part].style[triangle] != look) return {};
   return on_triangle(part, triangle, {hit.b[0], hit.b[1], hit.b[2]});
 }
 

@@ -6,7 +6,7 @@
 #include "compiler/bake/adaptive_grid.h"
 #include "compiler/bake/rect_packing.h"
 #include "compiler/image/image.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::bake {
 
@@ -18,7 +18,7 @@ struct PatchTexels {
 };
 
 /// Encodes linear colours. In: the look of the patch decides whether there are holes.
-[[nodiscard]] PatchTexels encode_texels(const place::PlacedRoom& room, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16);
+[[nodiscard]] PatchTexels encode_texels(const place::Interior& room, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16);
 
 /// Where the texels of a rectangle are to be copied from, row by row.
 struct TexelSource {

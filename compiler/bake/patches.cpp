@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compiler/base/elementary.h"
-#include "compiler/place/texel.h"
+#include "compiler/place/alpha_mask.h"
 #include "compiler/surface/albedo.h"
 
 namespace orbc::bake {
@@ -55,9 +55,9 @@ std::vector<std::array<Neighbour, 3>> neighbours_of(const PlacedMesh& mesh) {
 
 }  // namespace
 
-std::vector<TexelPatch> make_patches(const place::PlacedRoom& room, std::uint32_t part, const surface::PartNormals& normals) {
+std::vector<TexelPatch> make_patches(const place::Interior& room, std::uint32_t part, const surface::PartNormals& normals) {
   const PlacedMesh& mesh = room.parts[part];
-  const auto length = [&](std::uint32_t a, std::uint32_t b) { return edge_length(room.room.space, mesh, a, b); };
+  const auto length = [&](std::uint32_t a, std::uint32_t b) { return edge_length(room.polygon.space, mesh, a, b); };
   const std::vector<std::array<Neighbour, 3>> neighbours = neighbours_of(mesh);
   std::vector<bool> taken(mesh.triangles.size(), false);
   std::vector<TexelPatch> patches;
@@ -76,7 +76,7 @@ std::vector<TexelPatch> make_patches(const place::PlacedRoom& room, std::uint32_
     const auto [s, m] = neighbours[t][k];
     const auto& corners = normals.corners;
     // The neighbour runs along the common edge the other way round.
-    const bool is_smooth = s >= 0 && !taken[s] && mesh.look[s] == mesh.look[t] && corners[s][m] == corners[t][(k + 1) % 3] &&
+    const bool is_smooth = s >= 0 && !taken[s] && mesh.style[s] == mesh.style[t] && corners[s][m] == corners[t][(k + 1) % 3] &&
                            corners[s][(m + 1) % 3] == corners[t][k];
     if (is_smooth) {
       taken[s] = true;
@@ -113,18 +113,18 @@ BarycentricPoint barycentric_point(const TexelPatch& patch, double u, double v) 
   return place;
 }
 
-scene::Color albedo_at(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const TexelPatch& patch, double u, double v) {
+scene::Color albedo_at(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch, double u, double v) {
   const BarycentricPoint at = barycentric_point(patch, u, v);
   return surface::triangle_albedo(room, mesh, at.triangle, at.b);
 }
 
-bool is_masked_at(const place::PlacedRoom& room, const TexelPatch& patch, double u, double v) {
+bool is_masked_at(const place::Interior& room, const TexelPatch& patch, double u, double v) {
   if (patch.second < 0 && u + v > 1) {
     u = std::clamp((1 + u - v) / 2, 0.0, 1.0);
     v = 1 - u;
   }
   const BarycentricPoint at = barycentric_point(patch, u, v);
-  return place::in_hole(room, room.parts[patch.part], at.triangle, {at.b[0], at.b[1], at.b[2]});
+  return place::is_masked_at(room, room.parts[patch.part], at.triangle, {at.b[0], at.b[1], at.b[2]});
 }
 
 }  // namespace orbc::bake

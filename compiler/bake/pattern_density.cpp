@@ -26,7 +26,7 @@ double difference(const Color& a, const Color& b) {
 }
 
 /// Whether colours interpolated between texels of that density miss the pattern at too many samples.
-bool exceeds_interpolation_error(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const TexelPatch& patch,
+bool exceeds_interpolation_error(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch,
                                  const BakeOptions& options, double density) {
   const int max_cells = 1 << kMaxPatternHalvings;
   const int cells_u = 1 << halvings(patch.length_u * density), cells_v = 1 << halvings(patch.length_v * density);
@@ -58,8 +58,8 @@ bool exceeds_interpolation_error(const place::PlacedRoom& room, const place::Pla
 
 int halvings(double cells) { return std::clamp(static_cast<int>(std::lround(math::log2(std::max(1.0, cells)))), 0, kMaxPatternHalvings); }
 
-double pattern_density(const place::PlacedRoom& room, const place::PlacedMesh& mesh, const TexelPatch& patch, const BakeOptions& options) {
-  const place::Look& look = room.looks[mesh.look[patch.first]];
+double pattern_density(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch, const BakeOptions& options) {
+  const place::SurfaceStyle& look = room.styles[mesh.style[patch.first]];
   if (look.texture >= 0) return options.texture_density;
   double density = std::clamp(kMinTexelsPerCell / std::max(look.material.cell, 1e-6), options.max_density, options.texture_density);
   while (density < kMaxDensityFactor * options.texture_density && exceeds_interpolation_error(room, mesh, patch, options, density))

@@ -71,7 +71,7 @@ RayBatch make_rays(const Solver& solver, const light::Guide& guide, const surfac
 /// In: `seed` of the random numbers that choose between reflection and refraction.
 PointTransport gather_at(const Solver& solver, const surface::ShadingPoint& at, std::size_t seed) {
   const light::LightingContext& lighting = solver.surfaces.lighting;
-  const place::PlacedRoom& room = solver.surfaces.room;
+  const place::Interior& room = solver.surfaces.room;
   const int samples = solver.options.samples;
   const double links_to_samples = static_cast<double>(samples) / ((samples + solver.link_interval - 1) / solver.link_interval);
   const light::Guide guide = light::guide_at(lighting, at);
@@ -87,7 +87,7 @@ PointTransport gather_at(const Solver& solver, const surface::ShadingPoint& at, 
       const light::LightPath path = light::extend_path(room, lighting, start, std::move(paths[k]), random);
       transport.source = transport.source + path.radiance;
       if (!path.end) continue;
-      ending_inside += !path.end->point.outside;
+      ending_inside += !path.end->point.front_facing;
       const PatchUv on = solver.locator.find(path.end->point, path.end->hit);
       const Color weight = path.throughput * surface::hit_albedo(room, path.end->point);
       Color radiosity = lighting.ambient;
@@ -201,7 +201,7 @@ std::vector<Color> iterate(const Solver& solver, const GatherNet& net, const std
     });
     double change = 0;
     for (std::size_t i = 0; i < next.size(); ++i)
-      if (!transport[i].enclosed) change = std::max(change, largest(next[i] + -1.0 * indirect[i]));
+      if (!transport[i].enclosed) change = std::max(change, max_channel(next[i] + -1.0 * indirect[i]));
     indirect = inpaint_enclosed(net, transport, std::move(next));
     if (change < max_change) break;
   }

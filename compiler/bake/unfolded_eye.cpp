@@ -10,7 +10,7 @@ namespace orbc::bake {
 using geometry::Position;
 using trace::Direction;
 
-UnfoldedEye unfold_eye(const cover::Copy& copy, const place::Eye& eye) {
+UnfoldedEye unfold_eye(const cover::Copy& copy, const place::Camera& eye) {
   const geometry::Point foot = eye.room_from_eye * geometry::Point();
   return {eye.room_from_eye.space,
           {geometry::inverse(copy.cover_from_room) * foot, copy.storey.sign * (eye.z - copy.storey.offset)},
@@ -40,7 +40,7 @@ double pixel_footprint(const UnfoldedEye& eye, const light::Connection& sight, c
   return per_radian * math::hypot(across * stretch, upright) / std::max(sight.length, 1e-3);
 }
 
-std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera, const Position& point) {
+std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Camera& camera, const Position& point) {
   const UnfoldedEye eye = unfold_eye(copy, camera);
   const light::Connection sight = light::connect(eye.space, eye.at, point, eye.sheet);
   if (!sight.valid) return std::nullopt;
@@ -53,7 +53,7 @@ std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, con
   return geometry::Vector3{c * t.x, c * t.y, z};
 }
 
-bool outside_frustum(const place::Eye& camera, const std::vector<geometry::Vector3>& directions) {
+bool outside_frustum(const place::Camera& camera, const std::vector<geometry::Vector3>& directions) {
   if (camera.projection != scene::Projection::perspective || directions.empty()) return false;
   geometry::Vector3 middle;
   for (const auto& d : directions) middle = middle + d;
@@ -67,7 +67,7 @@ bool outside_frustum(const place::Eye& camera, const std::vector<geometry::Vecto
   return angle_to(camera.forward) > corner + 1.5 * radius + 0.05;
 }
 
-trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const Position& at) {
+trace::Direction direction_to_eye(const cover::Copy& copy, const place::Camera& eye, const Position& at) {
   return connect(unfold_eye(copy, eye), at).direction;
 }
 

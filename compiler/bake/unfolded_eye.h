@@ -4,7 +4,7 @@
 
 #include "compiler/cover/copy.h"
 #include "compiler/light/connection.h"
-#include "compiler/place/eye.h"
+#include "compiler/place/camera.h"
 
 namespace orbc::bake {
 
@@ -16,7 +16,7 @@ struct UnfoldedEye {
   int sheet = 0;  ///< of the copy: on S² the geodesic goes over that many half turns of the sphere
 };
 
-[[nodiscard]] UnfoldedEye unfold_eye(const cover::Copy& copy, const place::Eye& eye);
+[[nodiscard]] UnfoldedEye unfold_eye(const cover::Copy& copy, const place::Camera& eye);
 /// The geodesic from a point of the room to the eye.
 [[nodiscard]] light::Connection connect(const UnfoldedEye& eye, const geometry::Position& from);
 
@@ -33,13 +33,13 @@ struct UnfoldedEye {
 
 /// The direction in which the eye sees a point of a copy, unit, in eye coordinates. Nothing where the eye sees the point in all directions
 /// at once.
-[[nodiscard]] std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Eye& camera,
+[[nodiscard]] std::optional<geometry::Vector3> direction_from_eye(const cover::Copy& copy, const place::Camera& camera,
                                                                   const geometry::Position& point);
 
 /// Whether something whose corners the eye sees in these directions surely lies outside of the picture, all of it.
-[[nodiscard]] bool outside_frustum(const place::Eye& camera, const std::vector<geometry::Vector3>& directions);
+[[nodiscard]] bool outside_frustum(const place::Camera& camera, const std::vector<geometry::Vector3>& directions);
 
 /// The direction of the geodesic from a point of the room to the image of the eye, unit. The zero vector where all directions lead there.
-[[nodiscard]] trace::Direction direction_to_eye(const cover::Copy& copy, const place::Eye& eye, const geometry::Position& at);
+[[nodiscard]] trace::Direction direction_to_eye(const cover::Copy& copy, const place::Camera& eye, const geometry::Position& at);
 
 }  // namespace orbc::bake

@@ -21,7 +21,7 @@ struct BakedViewPart {
   std::vector<ViewPatch> patches;
 };
 
-std::vector<std::size_t> nearest_first(const std::vector<cover::Copy>& copies, const place::Eye& eye) {
+std::vector<std::size_t> nearest_first(const std::vector<cover::Copy>& copies, const place::Camera& eye) {
   std::vector<double> distance;
   for (const cover::Copy& copy : copies) distance.push_back(connect(unfold_eye(copy, eye), {geometry::Point(), eye.z}).length);
   std::vector<std::size_t> order(copies.size());

@@ -5,7 +5,7 @@
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/cover/copy.h"
-#include "compiler/place/eye.h"
+#include "compiler/place/camera.h"
 
 namespace orbc::bake {
 
@@ -39,12 +39,12 @@ struct DrawnParts {
 
 /// The room, its light, and how the eye sees it.
 struct ViewBakeInput {
-  const place::PlacedRoom& room;  ///< of which `diffuse` was made
+  const place::Interior& room;  ///< of which `diffuse` was made
   const light::LightingContext& lighting;
   const DiffuseBake& diffuse;
   const std::vector<cover::Copy>& copies;
   const DrawnParts& drawn;
-  const place::Eye& eye;
+  const place::Camera& eye;
 };
 
 /// The places in the atlas of one part of one copy, instead of those that all copies share.
@@ -69,7 +69,7 @@ struct ViewBake {
 };
 
 /// Whether a room has surfaces that look different from every side: mirror, glass and metal, and glossy ones where there are lamps.
-[[nodiscard]] bool needs_view_bake(const place::PlacedRoom& room, const light::LightingContext& lighting);
+[[nodiscard]] bool needs_view_bake(const place::Interior& room, const light::LightingContext& lighting);
 
 /// Bakes what glossy surfaces send to an eye, and what it sees in mirror, glass and metal objects, copy by copy: as seen from a copy, the
 /// eye is its image under the inverse map of that copy.

@@ -283,8 +283,8 @@ std::vector<ViewPatch> bake_view_part(const ViewPart& part, const Progress& prog
   std::vector<ViewPatch> baked;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     stop_if_cancelled(progress);
-    const int look = mesh_of(part).look[patches[i].first];
-    const scene::Material& material = part.input.room.looks[static_cast<std::size_t>(look)].material;
+    const int look = mesh_of(part).style[patches[i].first];
+    const scene::Material& material = part.input.room.styles[static_cast<std::size_t>(look)].material;
     const ViewStyle style{material, look, part.options.specular && is_specular(material, part.input.lighting.lit)};
     if (!style.is_specular && !is_glossy(material)) continue;
     ViewSampler sampler{part, style, patches[i], vertices};

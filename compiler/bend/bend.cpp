@@ -52,13 +52,13 @@ struct CopyTotals {
 
 /// Whether colours change inside of a mesh's triangles. Checkered panels are cut along their cells, whose colours are flat; a checkered
 /// object has a solid pattern.
-bool colors_vary(const place::PlacedRoom& room, const place::PlacedMesh& mesh) {
+bool colors_vary(const place::Interior& room, const place::PlacedMesh& mesh) {
   std::uint16_t last = 0xffff;
-  for (const std::uint16_t i : mesh.look) {
-    if (i == last || i >= room.looks.size()) continue;
+  for (const std::uint16_t i : mesh.style) {
+    if (i == last || i >= room.styles.size()) continue;
     last = i;
-    const auto pattern = room.looks[i].material.pattern;
-    if (room.looks[i].texture >= 0 ||
+    const auto pattern = room.styles[i].material.pattern;
+    if (room.styles[i].texture >= 0 ||
         (pattern != scene::Pattern::plain && (pattern != scene::Pattern::checker || mesh.kind == place::PartKind::object))) {
       return true;
     }
@@ -287,14 +287,14 @@ Diagnostic too_dense(const BendContext& context, const Executor& executor) {
                     "lower cover.max_bounces, or raise cover.min_pixels or cover.min_weight");
 }
 
-BendContext make_context(const place::PlacedRoom& room, const DrawList& list, const place::Eye& eye, const BendOptions& options,
+BendContext make_context(const place::Interior& room, const DrawList& list, const place::Camera& eye, const BendOptions& options,
                          const Executor& executor) {
   BendContext context;
   context.list = list;
   context.options = options;
   context.metric = screen_metric(eye, options);
   context.eye_from_room = inverse(eye.room_from_eye);
-  context.eye_from_cover = options.view == View::eye ? context.eye_from_room : geometry::identity(room.room.space);
+  context.eye_from_cover = options.view == View::eye ? context.eye_from_room : geometry::identity(room.polygon.space);
   // Chords outside of the picture may be off by several tolerances.
   context.margin = options.view == View::eye ? 0.01 + 2 * kOffscreenFactor * options.tolerance_px / context.metric.pixels : 0;
   std::map<const place::PlacedMesh*, std::size_t> known;  // never iterated: its order depends on addresses
@@ -311,7 +311,7 @@ BendContext make_context(const place::PlacedRoom& room, const DrawList& list, co
   context.meshes.resize(meshes.size());
   executor(meshes.size(), [&](std::size_t i) {
     const bool vary = options.colors_vary || colors_vary(room, *meshes[i]);
-    context.meshes[i] = edge_mesh(room.room.space, *meshes[i], vary ? options.color_tolerance : 0);
+    context.meshes[i] = edge_mesh(room.polygon.space, *meshes[i], vary ? options.color_tolerance : 0);
   });
   for (std::size_t i = 0; i < list.copies.size(); ++i) {
     const cover::Storey& storey = list.copies[i].storey;
@@ -319,7 +319,7 @@ BendContext make_context(const place::PlacedRoom& room, const DrawList& list, co
     auto& parts = context.storeys[storey.number];
     parts.resize(context.meshes.size());
     for (const ModelPart& part : model_of(context, i))
-      if (!parts[part.mesh]) parts[part.mesh] = on_storey(storey, room.room.space, context.meshes[part.mesh]);
+      if (!parts[part.mesh]) parts[part.mesh] = on_storey(storey, room.polygon.space, context.meshes[part.mesh]);
   }
   return context;
 }
@@ -348,14 +348,14 @@ BentCover allocated(const BendTotals& totals, double tolerance) {
 
 }  // namespace
 
-Model whole_model(const place::PlacedRoom& room, const std::vector<Uv>& uv) {
+Model whole_model(const place::Interior& room, const std::vector<Uv>& uv) {
   ORBC_CHECK(uv.size(), ==, room.parts.size());
   Model model;
   for (std::size_t i = 0; i < uv.size(); ++i) model.parts.push_back({&room.parts[i], &uv[i]});
   return model;
 }
 
-Result<BentCover> bend(const place::PlacedRoom& room, const DrawList& list, const place::Eye& eye, const BendOptions& options,
+Result<BentCover> bend(const place::Interior& room, const DrawList& list, const place::Camera& eye, const BendOptions& options,
                        const Executor& executor, const Progress& progress) {
   ORBC_CHECK(options.tolerance_px, >, 0);
   ORBC_CHECK(options.disk_tolerance, >, 0);

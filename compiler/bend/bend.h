@@ -8,8 +8,8 @@
 #include "compiler/base/progress.h"
 #include "compiler/base/result.h"
 #include "compiler/cover/copy.h"
-#include "compiler/place/eye.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/camera.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::bend {
 
@@ -30,7 +30,7 @@ struct Model {
   std::vector<Part> parts;
 };
 /// All parts of a room. In: uv parallel to its parts; both must outlive the model.
-[[nodiscard]] Model whole_model(const place::PlacedRoom& room, const std::vector<Uv>& uv);
+[[nodiscard]] Model whole_model(const place::Interior& room, const std::vector<Uv>& uv);
 
 /// The input of bend(): copies, and the model that each is drawn from.
 struct DrawList {
@@ -76,7 +76,7 @@ struct BentCover {
 ///              them.
 /// Diagnostics: bend.too-dense when more than `max_triangles` would be needed; the hint names a tolerance that fits.
 /// Not promised: a minimal triangle count.
-[[nodiscard]] Result<BentCover> bend(const place::PlacedRoom& room, const DrawList& list, const place::Eye& eye, const BendOptions& options,
-                                     const Executor& executor, const Progress& progress = {});
+[[nodiscard]] Result<BentCover> bend(const place::Interior& room, const DrawList& list, const place::Camera& eye,
+                                     const BendOptions& options, const Executor& executor, const Progress& progress = {});
 
 }  // namespace orbc::bend

@@ -37,7 +37,7 @@ struct Plane {
 /// The borders of a copy's wedge, and its height bounds as polylines.
 class CutPlanes {
  public:
-  CutPlanes(const cover::Copy& copy, geometry::Space space, const place::Eye& eye, double tolerance_px)
+  CutPlanes(const cover::Copy& copy, geometry::Space space, const place::Camera& eye, double tolerance_px)
       : space_(space), eye_z_(eye.z), tolerance_(tolerance_px / place::pixels_per_radian(eye)) {
     for (const Bearing& b : {copy.wedge->from, copy.wedge->to}) planes.push_back({{-b.y, b.x, 0}, -1, 0, true});
     for (std::size_t i = 0; i < copy.height_bounds.size(); ++i) {
@@ -309,7 +309,7 @@ void append(const BentCover& from, const BentRange& range, BentCover& to) {
 
 }  // namespace
 
-BentCover clip_in_eye_space(BentCover cover, std::span<const cover::Copy> copies, const place::Eye& eye, double tolerance_px,
+BentCover clip_in_eye_space(BentCover cover, std::span<const cover::Copy> copies, const place::Camera& eye, double tolerance_px,
                             const Executor& executor) {
   if (std::none_of(copies.begin(), copies.end(), [](const cover::Copy& copy) { return copy.wedge.has_value(); })) return cover;
   BentCover cut;

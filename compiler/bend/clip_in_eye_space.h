@@ -12,7 +12,7 @@ namespace orbc::bend {
 ///         it: triangles are cut by the planes through the eye and its segments, and by the upright planes between segments. Copies on both
 ///         sides of a cut that were bent alike get the same vertices along it, bit by bit. The same for every executor.
 /// Error:  vertices within 4e-7 radians of an upright plane count as on it.
-[[nodiscard]] BentCover clip_in_eye_space(BentCover cover, std::span<const cover::Copy> copies, const place::Eye& eye, double tolerance_px,
-                                          const Executor& executor);
+[[nodiscard]] BentCover clip_in_eye_space(BentCover cover, std::span<const cover::Copy> copies, const place::Camera& eye,
+                                          double tolerance_px, const Executor& executor);
 
 }  // namespace orbc::bend

@@ -68,7 +68,7 @@ ChordError measure_chord_in_disk(const ScreenMetric& metric, const Vector3& a, c
 
 }  // namespace
 
-ScreenMetric screen_metric(const place::Eye& eye, const BendOptions& options) {
+ScreenMetric screen_metric(const place::Camera& eye, const BendOptions& options) {
   ScreenMetric metric;
   metric.view = options.view;
   metric.eye = {0, 0, eye.z};

@@ -18,7 +18,7 @@ constexpr double kOffscreenFactor = 8;
 struct ScreenMetric {
   View view = View::eye;
   geometry::Vector3 eye, forward;  ///< position and direction, in eye coordinates
-  place::Eye camera;
+  place::Camera camera;
   double pixels = 1;        ///< per radian, at the centre of the picture
   double cos_border = 1;    ///< perspective: cosine of the angle to the corner; others: of the highest elevation that counts
   double tolerance = 0.25;  ///< pixels, or chart length
@@ -26,7 +26,7 @@ struct ScreenMetric {
   std::array<geometry::Vector3, 4> outward{};  ///< framed: outward unit normals of the planes through the eye and the picture's sides
 };
 
-[[nodiscard]] ScreenMetric screen_metric(const place::Eye& eye, const BendOptions& options);
+[[nodiscard]] ScreenMetric screen_metric(const place::Camera& eye, const BendOptions& options);
 
 /// Pixels per radian in the unit direction d.
 /// Formula: perspective and cylinder: pixels / cos²; panorama: pixels / cos of the elevation; cosines are at least cos_border.

@@ -60,7 +60,7 @@ BoundingCylinder bounding_cylinder(Space space, const place::PlacedMesh& mesh) {
   return cylinder;
 }
 
-ScreenSize::ScreenSize(const place::Eye& eye, const BendOptions& options)
+ScreenSize::ScreenSize(const place::Camera& eye, const BendOptions& options)
     : eye_from_room_(inverse(eye.room_from_eye)), metric_(screen_metric(eye, options)) {}
 
 double ScreenSize::nearest_vertex(const LogMap& map, const cover::Copy& copy, const place::PlacedMesh& mesh) const {

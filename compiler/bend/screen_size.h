@@ -18,7 +18,7 @@ struct BoundingCylinder {
 /// How large the content of a cylinder appears in the picture, as part of a copy.
 class ScreenSize {
  public:
-  ScreenSize(const place::Eye& eye, const BendOptions& options);
+  ScreenSize(const place::Camera& eye, const BendOptions& options);
   /// An upper bound of the pixels per unit of length, anywhere in the cylinder and up to `margin` (a length) beyond it: a displacement by
   /// less than 1 / this is a displacement by less than a pixel. kUnbounded around the eye, and where the map of S² is torn. What lies
   /// outside of a perspective picture is divided by kOffscreenFactor.

@@ -159,7 +159,7 @@ void refuse_what_cannot_be(const CompileArguments& a, const std::string& format,
 }  // namespace
 
 Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& a, const std::string& format, const Common& common) {
-  if (opened.scene.bake.atlas == scene::AtlasDepth::exr && format.substr(0, 2) == "gl")
+  if (opened.scene.bake.atlas == scene::AtlasFormat::exr && format.substr(0, 2) == "gl")
     return make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR", "use `atlas: 16` (--atlas 16), or write .pov",
                       opened.scene.span);
   ProgressBar bar(!common.quiet && stderr_is_terminal());

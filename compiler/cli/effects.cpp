@@ -29,7 +29,7 @@ const char* with_samples(const Situation& now, unsigned) {
   return now.use.samples > 1 ? "with more than one sample edges are mixed, and only --threshold counts" : nullptr;
 }
 const char* of_flat_rooms(const Situation& now, unsigned) {
-  return now.opened.room->room.space == geometry::Space::euclidean ? "in flat rooms all models are the plane itself" : nullptr;
+  return now.opened.room->polygon.space == geometry::Space::euclidean ? "in flat rooms all models are the plane itself" : nullptr;
 }
 const char* without_lamps(const Situation& now, unsigned) { return now.opened.scene.lamps.empty() ? "the scene has no lamps" : nullptr; }
 
@@ -48,10 +48,10 @@ const char* of_quality(const Situation& now, unsigned target) {
 }
 const char* of_highlights(const Situation& now, unsigned target) {
   if (const char* why = of_the_disk(now, target)) return why;
-  const auto shiny = [](const place::Look& look) {
+  const auto shiny = [](const place::SurfaceStyle& look) {
     return look.material.kind != scene::MaterialKind::matte && look.material.kind != scene::MaterialKind::emissive;
   };
-  const auto& looks = now.opened.room->looks;
+  const auto& looks = now.opened.room->styles;
   if (std::none_of(looks.begin(), looks.end(), shiny)) return "nothing in the scene is glossy, or of metal, mirror or glass";
   return of_quality(now, target);
 }
@@ -132,7 +132,7 @@ Diagnostics without_effect(const std::vector<std::string>& options, const Use& u
     if (why) told.push_back(make_warning("cli.no-effect", fmt::format("--{} changes nothing here: {}", option, why), "leave it out"));
   }
   if (use.targets == kSvg) return told;  // a scene is written for pictures; its tiling is a by-product
-  for (const scene::GivenKey& key : opened.scene.given) {
+  for (const scene::GivenKey& key : opened.scene.given_keys) {
     const Row* row = std::find_if(std::begin(kKeys), std::end(kKeys), [&](const Row& r) { return key.path == r.name; });
     const char* why = row == std::end(kKeys) ? nullptr : why_idle(*row, now);
     if (why)

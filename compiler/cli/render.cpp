@@ -68,7 +68,7 @@ std::string noise_text(const render::Film& film, double exposure) {
   return fmt::format("; noise {:.1f}/255, less with more --samples", render::rms_noise(film, exposure));
 }
 
-nlohmann::ordered_json result_of(const RenderArguments& a, PictureFormat format, const place::Eye& eye) {
+nlohmann::ordered_json result_of(const RenderArguments& a, PictureFormat format, const place::Camera& eye) {
   return {{"output", a.compile.output}, {"format", name(format)}, {"engine", a.engine},
           {"width", eye.width},         {"height", eye.height},   {"samples", a.samples}};
 }

@@ -58,7 +58,7 @@ int check(const CheckArguments& a, const Common& common) {
     if (!opened) code = kSceneWrong;
     else if (!common.quiet && !common.json)
       fmt::print(stderr, "{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
-                 notation::to_text(opened->scene.orbifold), opened->room->room.walls.size(), opened->scene.objects.size(),
+                 notation::to_text(opened->scene.orbifold), opened->room->polygon.walls.size(), opened->scene.objects.size(),
                  opened->scene.lamps.size());
   }
   if (common.json) write_output("-", fmt::format("{{\"ok\": {}, \"diagnostics\": {}}}\n", code == kDone, to_json(all)));

@@ -60,7 +60,7 @@ HeightBound at_height(HeightBound bound, double z, bool above) {
 /// to it, and `all_found_` says whether none was left out for its weight.
 class BeamUnfolder {
  public:
-  BeamUnfolder(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec)
+  BeamUnfolder(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec)
       : room_(room),
         spec_(spec),
         boundary_(make_boundary(room, spec.max_bounces)),
@@ -76,7 +76,7 @@ class BeamUnfolder {
 
   Result<std::vector<Copy>> run(const BeamOptions& options) {
     Copy room;
-    room.cover_from_room = geometry::identity(room_.room.space);
+    room.cover_from_room = geometry::identity(room_.polygon.space);
     if (spec_.max_bounces > 0) start();
     std::uint64_t total = 1;
     for (int bounces = 1; !beams_.empty(); ++bounces) {
@@ -98,7 +98,7 @@ class BeamUnfolder {
  private:
   void start() {
     Beam root;
-    root.cover_from_room = geometry::identity(room_.room.space);
+    root.cover_from_room = geometry::identity(room_.polygon.space);
     root.crossings.assign(boundary_.throughputs.size(), 0);
     const auto bearings = bearings_of_points(eye_from_cover_, 0);
     for (std::size_t i = 0; i < boundary_.edges.size(); ++i)
@@ -116,12 +116,12 @@ class BeamUnfolder {
   /// Bit i: wall i faces rays that come from a pole (in room coordinates).
   [[nodiscard]] std::uint64_t walls_facing(const Ambient& pole) const {
     std::uint64_t walls = 0;
-    for (std::size_t i = 0; i < room_.room.walls.size() && i < 64; ++i)
-      if (value_at(room_.room.walls[i].line, pole) < 0) walls |= wall_bit(static_cast<int>(i));
+    for (std::size_t i = 0; i < room_.polygon.walls.size() && i < 64; ++i)
+      if (value_at(room_.polygon.walls[i].line, pole) < 0) walls |= wall_bit(static_cast<int>(i));
     return walls;
   }
   [[nodiscard]] bool is_inside(const Ambient& pole) const {
-    return std::all_of(room_.room.walls.begin(), room_.room.walls.end(),
+    return std::all_of(room_.polygon.walls.begin(), room_.polygon.walls.end(),
                        [&](const room::Wall& wall) { return value_at(wall.line, pole) > 0; });
   }
 
@@ -132,7 +132,7 @@ class BeamUnfolder {
     const Ambient eye = inverse(eye_from_copy) * geometry::Point();
     const Ambient pole = beam.sheet % 2 == 0 ? eye : -1.0 * eye, next_pole = -1.0 * pole;
     record(beam, bounces, beam.sheet, walls_facing(pole) | wall_bit(beam.entry));
-    if (room_.room.space == Space::spherical && is_inside(next_pole)) {
+    if (room_.polygon.space == Space::spherical && is_inside(next_pole)) {
       // All rays meet in this copy, which is therefore seen a second time, on the next sheet.
       record(beam, bounces, beam.sheet + 1, 0);
       if (further) split_from_inside(beam, eye_from_copy);
@@ -185,10 +185,10 @@ class BeamUnfolder {
       auto bounds = beam.height_bounds;
       if (edge.apertures.size() > 1 || !bounds.empty()) {
         const Isometry eye_from_copy = eye_from_cover_ * beam.cover_from_room;
-        const HeightBound wall{eye_from_copy * room_.room.walls[static_cast<std::size_t>(edge.wall)].line, exit.sheet, 0, false};
+        const HeightBound wall{eye_from_copy * room_.polygon.walls[static_cast<std::size_t>(edge.wall)].line, exit.sheet, 0, false};
         const HeightRange range{at_height(wall, std::max(aperture.from, lowest_), true),
                                 at_height(wall, std::min(aperture.to, highest_), false)};
-        if (is_blocked(room_.room.space, bounds, range, exit.wedge, eye_z_)) continue;
+        if (is_blocked(room_.polygon.space, bounds, range, exit.wedge, eye_z_)) continue;
         if (aperture.from > lowest_) bounds = with_bound(std::move(bounds), range.low, eye_z_);
         if (aperture.to < highest_) bounds = with_bound(std::move(bounds), range.high, eye_z_);
       }
@@ -206,7 +206,7 @@ class BeamUnfolder {
     Beam next;
     next.crossings = beam.crossings;
     ++next.crossings[static_cast<std::size_t>(throughput_index)];
-    if (largest(weight_of(next.crossings, boundary_.throughputs)) < spec_.min_weight) {
+    if (max_channel(weight_of(next.crossings, boundary_.throughputs)) < spec_.min_weight) {
       all_found_ = false;
       return std::nullopt;
     }
@@ -226,7 +226,7 @@ class BeamUnfolder {
     return next;
   }
 
-  const place::PlacedRoom& room_;
+  const place::Interior& room_;
   const scene::CoverSpec& spec_;
   Boundary boundary_;
   Reflections reflections_;
@@ -240,13 +240,13 @@ class BeamUnfolder {
 
 }  // namespace
 
-Result<std::vector<Copy>> unfold_by_beams(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+Result<std::vector<Copy>> unfold_by_beams(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                           const BeamOptions& options) {
   return BeamUnfolder(room, eye, spec).run(options);
 }
 
-bool needs_beams(const place::PlacedRoom& room) {
-  if (!notation::is_orbifold(room.room.orbifold)) return true;
+bool needs_beams(const place::Interior& room) {
+  if (!notation::is_orbifold(room.polygon.orbifold)) return true;
   const place::PlacedMirror* first = nullptr;
   for (const place::PlacedMirror& mirror : room.mirrors) {
     if (mirror.wall < 0) continue;  // on floor or ceiling

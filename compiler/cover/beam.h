@@ -5,8 +5,8 @@
 #include "compiler/base/progress.h"
 #include "compiler/base/result.h"
 #include "compiler/cover/copy.h"
-#include "compiler/place/eye.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/camera.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::cover {
 
@@ -28,11 +28,11 @@ struct BeamOptions {
 /// Exact:       which copies there are, by normal forms (automaton.h). Bearings closer than 1e-12 radians count as one, which is far more
 ///              than their rounding; all other decisions compare stored bearings whose order rounding cannot change.
 /// Diagnostics: cover.too-much beyond `max_beams`: the hint names a max_bounces that fits.
-[[nodiscard]] Result<std::vector<Copy>> unfold_by_beams(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+[[nodiscard]] Result<std::vector<Copy>> unfold_by_beams(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                                         const BeamOptions& options = {});
 
 /// Whether the copies of a room depend on the path to them, so that its group alone (unfold.h) does not give them: an angle is no π/k, or
 /// mirrors on walls differ in throughput.
-[[nodiscard]] bool needs_beams(const place::PlacedRoom& room);
+[[nodiscard]] bool needs_beams(const place::Interior& room);
 
 }  // namespace orbc::cover

@@ -49,15 +49,15 @@ bool continues(const BeamHit& first, const Wedge& wedge, const BeamHit& next) {
 
 }  // namespace
 
-Reflections reflections_of(const place::PlacedRoom& room, int max_length) {
+Reflections reflections_of(const place::Interior& room, int max_length) {
   Reflections reflections;
-  const int walls = static_cast<int>(room.room.walls.size());
-  for (int wall = 0; wall < walls; ++wall) reflections.in_wall.push_back(room::reflection_in_wall(room.room, wall));
+  const int walls = static_cast<int>(room.polygon.walls.size());
+  for (int wall = 0; wall < walls; ++wall) reflections.in_wall.push_back(room::reflection_in_wall(room.polygon, wall));
   reflections.letter_of_wall.assign(static_cast<std::size_t>(walls), -1);
-  if (!notation::is_orbifold(room.room.orbifold)) return reflections;
-  reflections.automaton.emplace(room.room.orbifold, std::max(1, max_length));
+  if (!notation::is_orbifold(room.polygon.orbifold)) return reflections;
+  reflections.automaton.emplace(room.polygon.orbifold, std::max(1, max_length));
   for (int wall = 0; wall < walls; ++wall) {
-    if (!room.room.walls[static_cast<std::size_t>(wall)].reflects) continue;
+    if (!room.polygon.walls[static_cast<std::size_t>(wall)].reflects) continue;
     reflections.letter_of_wall[static_cast<std::size_t>(wall)] = static_cast<int>(reflections.wall_of_letter.size());
     reflections.wall_of_letter.push_back(wall);
   }

@@ -5,7 +5,7 @@
 
 #include "compiler/cover/automaton.h"
 #include "compiler/cover/copy.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::cover {
 
@@ -28,7 +28,7 @@ struct Reflections {
   std::vector<int> wall_of_letter;
 };
 /// In: the length of the longest word that the automaton must know.
-[[nodiscard]] Reflections reflections_of(const place::PlacedRoom& room, int max_length);
+[[nodiscard]] Reflections reflections_of(const place::Interior& room, int max_length);
 
 /// The isometry of a group element. Exact: it depends on the normal form alone, so that all copies of an element fit together bit by bit.
 /// In: a word in letters of the automaton.

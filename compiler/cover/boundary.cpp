@@ -19,7 +19,7 @@ struct MirrorBand {
 using Bands = std::vector<MirrorBand>;
 
 /// The mirror of a wall at arc length s and height z: the first one there, as in the tracer.
-const place::PlacedMirror* mirror_at(const place::PlacedRoom& room, int wall, double s, double z) {
+const place::PlacedMirror* mirror_at(const place::Interior& room, int wall, double s, double z) {
   for (const place::PlacedMirror& mirror : room.mirrors)
     if (mirror.wall == wall && mirror.span[0] < s && s < mirror.span[1] && mirror.height[0] < z && z < mirror.height[1]) return &mirror;
   return nullptr;
@@ -35,7 +35,7 @@ Bands joined(const Bands& bands) {
 }
 
 /// The bands of a wall at arc length s, upwards.
-Bands bands_at(const place::PlacedRoom& room, int wall, double s) {
+Bands bands_at(const place::Interior& room, int wall, double s) {
   std::vector<double> heights;
   for (const place::PlacedMirror& mirror : room.mirrors)
     if (mirror.wall == wall && mirror.span[0] < s && s < mirror.span[1])
@@ -91,22 +91,22 @@ struct WallPoint {
 };
 
 /// Adds the ends of a wall's mirrors to the points of its outline and sorts all by arc length.
-std::vector<WallPoint> with_mirror_ends(std::vector<WallPoint> points, const place::PlacedRoom& placed, int wall) {
-  const double length = placed.room.walls[static_cast<std::size_t>(wall)].length;
+std::vector<WallPoint> with_mirror_ends(std::vector<WallPoint> points, const place::Interior& placed, int wall) {
+  const double length = placed.polygon.walls[static_cast<std::size_t>(wall)].length;
   for (const place::PlacedMirror& mirror : placed.mirrors) {
     if (mirror.wall != wall) continue;
     for (const double s : mirror.span) {
       const auto is_there = [&](const WallPoint& p) { return std::abs(p.s - s) < kSameArcLength; };
       if (std::none_of(points.begin(), points.end(), is_there) && s < length - kSameArcLength)
-        points.push_back({s, room::point_on_wall(placed.room, wall, s)});
+        points.push_back({s, room::point_on_wall(placed.polygon, wall, s)});
     }
   }
   std::sort(points.begin(), points.end(), [](const WallPoint& a, const WallPoint& b) { return a.s < b.s; });
   return points;
 }
 
-void add_wall(Boundary& boundary, const place::PlacedRoom& placed, int wall, const std::vector<WallPoint>& points, int max_bounces) {
-  const double length = placed.room.walls[static_cast<std::size_t>(wall)].length;
+void add_wall(Boundary& boundary, const place::Interior& placed, int wall, const std::vector<WallPoint>& points, int max_bounces) {
+  const double length = placed.polygon.walls[static_cast<std::size_t>(wall)].length;
   boundary.first_edge[static_cast<std::size_t>(wall)] = static_cast<int>(boundary.edges.size());
   boundary.edge_count[static_cast<std::size_t>(wall)] = static_cast<int>(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -121,8 +121,8 @@ void add_wall(Boundary& boundary, const place::PlacedRoom& placed, int wall, con
 
 }  // namespace
 
-Boundary make_boundary(const place::PlacedRoom& placed, int max_bounces) {
-  const room::Room& room = placed.room;
+Boundary make_boundary(const place::Interior& placed, int max_bounces) {
+  const room::Room& room = placed.polygon;
   const std::size_t corners = room.outline.size();
   Boundary boundary;
   boundary.first_edge.assign(room.walls.size(), 0);

@@ -2,7 +2,7 @@
 #include <limits>
 #include <vector>
 
-#include "compiler/place/placed.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::cover {
 
@@ -29,6 +29,6 @@ struct Boundary {
 /// Makes: the edges of a wall in the order of arc length. Mirror ends within 1e-9 of a wall's end count as this end. Where mirrors overlap,
 ///        the first one counts, as in the tracer. With mirrors on floor and ceiling the heights are those of all storeys within
 ///        `max_bounces`.
-[[nodiscard]] Boundary make_boundary(const place::PlacedRoom& room, int max_bounces);
+[[nodiscard]] Boundary make_boundary(const place::Interior& room, int max_bounces);
 
 }  // namespace orbc::cover

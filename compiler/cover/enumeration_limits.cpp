@@ -23,7 +23,7 @@ std::vector<scene::Color> weights_within(const scene::Color& throughput, const s
   std::vector<scene::Color> weights{{1, 1, 1}};
   while (static_cast<int>(weights.size()) <= std::max(0, spec.max_bounces)) {
     const scene::Color next = weights.back() * throughput;
-    if (largest(next) < spec.min_weight) break;
+    if (max_channel(next) < spec.min_weight) break;
     weights.push_back(next);
   }
   return weights;
@@ -31,13 +31,13 @@ std::vector<scene::Color> weights_within(const scene::Color& throughput, const s
 
 }  // namespace
 
-EnumerationLimits enumeration_limits(const place::PlacedRoom& room, const scene::CoverSpec& spec) {
+EnumerationLimits enumeration_limits(const place::Interior& room, const scene::CoverSpec& spec) {
   ORBC_CHECK(needs_beams(room), ==, false);
   EnumerationLimits limits;
-  for (std::size_t i = 0; i < room.room.walls.size(); ++i)
-    if (room.room.walls[i].reflects) limits.wall_of_letter.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < room.polygon.walls.size(); ++i)
+    if (room.polygon.walls[i].reflects) limits.wall_of_letter.push_back(static_cast<int>(i));
   limits.has_mirror.assign(limits.wall_of_letter.size(), false);
-  for (const int wall : limits.wall_of_letter) limits.reflections.push_back(room::reflection_in_wall(room.room, wall));
+  for (const int wall : limits.wall_of_letter) limits.reflections.push_back(room::reflection_in_wall(room.polygon, wall));
   const place::PlacedMirror* first = nullptr;
   for (const place::PlacedMirror& mirror : room.mirrors) {
     if (mirror.wall < 0) continue;  // on floor or ceiling
@@ -50,8 +50,8 @@ EnumerationLimits enumeration_limits(const place::PlacedRoom& room, const scene:
   else limits.weight_by_bounces = {{1, 1, 1}};
   limits.max_bounces = static_cast<int>(limits.weight_by_bounces.size()) - 1;
   limits.min_pixels = spec.min_pixels;
-  if (room.room.space == Space::spherical) {
-    limits.bounces_per_half_turn = notation::longest_length(room.room.orbifold).value();
+  if (room.polygon.space == Space::spherical) {
+    limits.bounces_per_half_turn = notation::longest_length(room.polygon.orbifold).value();
     // Every half turn passes all walls. So one plain wall hides all sheets but the first.
     limits.sheets = contains(limits.has_mirror, false) ? 1 : limits.max_bounces / limits.bounces_per_half_turn + 1;
   }
@@ -62,18 +62,18 @@ int bounces_on_sheet(const EnumerationLimits& limits, int length, int sheet) {
   return sheet % 2 == 0 ? sheet * limits.bounces_per_half_turn + length : (sheet + 1) * limits.bounces_per_half_turn - length;
 }
 
-void visit_copies(const EnumerationLimits& limits, const place::PlacedRoom& room, const place::Eye& eye,
+void visit_copies(const EnumerationLimits& limits, const place::Interior& room, const place::Camera& eye,
                   const std::function<Visit(const Element&, const Isometry&)>& visit) {
   // Later sheets need the whole group, whatever its bounces on sheet 0.
   const int half_turn = limits.bounces_per_half_turn;
   const int longest = limits.sheets > 1 ? half_turn : half_turn > 0 ? std::min(half_turn, limits.max_bounces) : limits.max_bounces;
   if (!contains(limits.has_mirror, true)) {
-    visit(Element{}, geometry::identity(room.room.space));
+    visit(Element{}, geometry::identity(room.polygon.space));
     return;
   }
-  const Automaton automaton(room.room.orbifold, std::max(longest, 1));
+  const Automaton automaton(room.polygon.orbifold, std::max(longest, 1));
   const Point eye_in_cover = eye.room_from_eye * Point();
-  const Space space = room.room.space;
+  const Space space = room.polygon.space;
   const ProjectedSize size(room, eye);
   enumerate(automaton, limits.reflections, longest, [&](const Element& element, const Isometry& cover_from_room) -> Visit {
     if (element.word.empty()) return visit(element, cover_from_room);
@@ -81,7 +81,7 @@ void visit_copies(const EnumerationLimits& limits, const place::PlacedRoom& room
     if (!limits.has_mirror[last]) return Visit::prune;
     if (limits.min_pixels > 0 && space != Space::spherical) {
       const Point here = inverse(cover_from_room) * eye_in_cover;
-      const auto& line = room.room.walls[static_cast<std::size_t>(limits.wall_of_letter[last])].line;
+      const auto& line = room.polygon.walls[static_cast<std::size_t>(limits.wall_of_letter[last])].line;
       if (size.at(std::fabs(geometry::signed_distance(space, line, here))) < limits.min_pixels) return Visit::prune;
       if (size.of(cover_from_room) < limits.min_pixels) return Visit::descend;
     }

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "compiler/cover/enumerate.h"
-#include "compiler/place/eye.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/camera.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::cover {
 
@@ -21,13 +21,13 @@ struct EnumerationLimits {
 };
 
 /// In:    a room whose copies the group enumerates: !needs_beams(room). Mirrors on floor and ceiling have no influence (storeys.h).
-[[nodiscard]] EnumerationLimits enumeration_limits(const place::PlacedRoom& room, const scene::CoverSpec& spec);
+[[nodiscard]] EnumerationLimits enumeration_limits(const place::Interior& room, const scene::CoverSpec& spec);
 
 /// Visits every copy on sheet 0 in the order of `enumerate`: visit(element, cover_from_room). Copies behind plain walls and copies below
 /// `min_pixels` are left out.
 /// Exact: a word with the letter of a plain wall is always hidden. Two reduced words of one element have the same letters (Tits, 1969), so
 ///        every straight path to such a copy crosses an image of the plain wall.
-void visit_copies(const EnumerationLimits& limits, const place::PlacedRoom& room, const place::Eye& eye,
+void visit_copies(const EnumerationLimits& limits, const place::Interior& room, const place::Camera& eye,
                   const std::function<Visit(const Element&, const geometry::Isometry& cover_from_room)>& visit);
 
 /// Mirrors between the eye and a copy with a word of `length` letters, as seen on a sheet.

@@ -59,7 +59,8 @@ Counts from_series(const EnumerationLimits& limits, const notation::Orbifold& or
   }
 }
 
-Counts count_by_visiting(const EnumerationLimits& limits, const place::PlacedRoom& room, const place::Eye& eye, const Integer& max_copies) {
+Counts count_by_visiting(const EnumerationLimits& limits, const place::Interior& room, const place::Camera& eye,
+                         const Integer& max_copies) {
   std::vector<std::uint64_t> by_bounces(static_cast<std::size_t>(limits.max_bounces) + 1);
   // A depth-first enumeration that stops early has counted no length completely. So an excess is counted again with fewer bounces.
   const std::uint64_t limit = max_copies > 100'000'000 ? 100'000'000 : static_cast<std::uint64_t>(max_copies);
@@ -88,12 +89,12 @@ Counts count_by_visiting(const EnumerationLimits& limits, const place::PlacedRoo
   }
 }
 
-Counts count_copies(const EnumerationLimits& limits, const place::PlacedRoom& room, const place::Eye& eye, const Integer& max_copies) {
-  return is_whole_group(limits) ? from_series(limits, room.room.orbifold, max_copies) : count_by_visiting(limits, room, eye, max_copies);
+Counts count_copies(const EnumerationLimits& limits, const place::Interior& room, const place::Camera& eye, const Integer& max_copies) {
+  return is_whole_group(limits) ? from_series(limits, room.polygon.orbifold, max_copies) : count_by_visiting(limits, room, eye, max_copies);
 }
 
 /// Counts every copy on every storey: the counts of both, by bounces, are multiplied like polynomials.
-Counts multiplied_by_storeys(const Counts& flat, const EnumerationLimits& limits, const place::PlacedRoom& room,
+Counts multiplied_by_storeys(const Counts& flat, const EnumerationLimits& limits, const place::Interior& room,
                              const scene::CoverSpec& spec) {
   const auto storeys = storeys_within(room, spec.max_bounces);
   Counts counts;
@@ -103,7 +104,7 @@ Counts multiplied_by_storeys(const Counts& flat, const EnumerationLimits& limits
     for (const WeightedStorey& s : storeys) {
       const std::size_t bounces = b + static_cast<std::size_t>(std::abs(s.storey.number));
       const scene::Color weight = limits.weight_by_bounces[b] * s.weight;
-      if (bounces >= counts.by_bounces.size() || largest(weight) < spec.min_weight) continue;
+      if (bounces >= counts.by_bounces.size() || max_channel(weight) < spec.min_weight) continue;
       counts.by_bounces[bounces] += flat.by_bounces[b];
       counts.total += flat.by_bounces[b];
     }
@@ -136,7 +137,7 @@ Diagnostic too_much(const Counts& counts, int max_bounces, const Integer& max_co
   return make_error("cover.too-much", fmt::format("max_bounces: {} unfolds more copies than {}", max_bounces, limit), hint);
 }
 
-Plan empty_plan(const place::PlacedRoom& room) {
+Plan empty_plan(const place::Interior& room) {
   Plan plan;
   for (const auto& part : room.parts) {
     plan.room_triangles += part.triangles.size();
@@ -162,7 +163,7 @@ Plan with_counts(Plan plan, Counts counts) {
 
 }  // namespace
 
-Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, const PlanOptions& options) {
+Result<Plan> plan(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec, const PlanOptions& options) {
   Plan plan = empty_plan(room);
   const auto each = static_cast<std::uint64_t>(kBytesPerCopy);
   const Integer max_copies = options.max_bytes / each;
@@ -183,13 +184,13 @@ Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const sc
   return with_counts(std::move(plan), std::move(counts));
 }
 
-Plan plan_of(const std::vector<Copy>& copies, const place::PlacedRoom& room) {
+Plan plan_of(const std::vector<Copy>& copies, const place::Interior& room) {
   Plan plan = empty_plan(room);
   for (const Copy& copy : copies) plan.sheets = std::max(plan.sheets, copy.sheet + 1);
   return with_counts(std::move(plan), count_by_bounces(copies));
 }
 
-Diagnostic too_many_copies(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec, std::uint64_t max_copies) {
+Diagnostic too_many_copies(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec, std::uint64_t max_copies) {
   const EnumerationLimits limits = enumeration_limits(room, spec);
   const Counts counts = count_copies(limits, room, eye, max_copies);
   return too_much(counts, limits.max_bounces, max_copies, fmt::format("{} copies allowed", max_copies));

@@ -5,8 +5,8 @@
 #include "compiler/base/rational.h"
 #include "compiler/base/result.h"
 #include "compiler/cover/copy.h"
-#include "compiler/place/eye.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/camera.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::cover {
 
@@ -37,15 +37,15 @@ struct Plan {
 ///              beams (beam.h) are unfolded.
 /// Exact:       copies.
 /// Diagnostics: those of `unfold`; cover.too-much when the copies exceed `max_bytes`; its hint names the largest max_bounces that fits.
-[[nodiscard]] Result<Plan> plan(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+[[nodiscard]] Result<Plan> plan(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                 const PlanOptions& options = {});
 
 /// The plan of copies that are unfolded already.
-[[nodiscard]] Plan plan_of(const std::vector<Copy>& copies, const place::PlacedRoom& room);
+[[nodiscard]] Plan plan_of(const std::vector<Copy>& copies, const place::Interior& room);
 
 /// The error cover.too-much of a cover with more than `max_copies` copies; its hint names the largest max_bounces that fits.
 /// In: a room that does not need beams.
-[[nodiscard]] Diagnostic too_many_copies(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+[[nodiscard]] Diagnostic too_many_copies(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                          std::uint64_t max_copies);
 
 }  // namespace orbc::cover

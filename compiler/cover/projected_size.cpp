@@ -11,9 +11,9 @@ namespace orbc::cover {
 
 using geometry::Space;
 
-ProjectedSize::ProjectedSize(const place::PlacedRoom& room, const place::Eye& eye)
-    : space_(room.room.space),
-      radius_(room.room.circumradius),
+ProjectedSize::ProjectedSize(const place::Interior& room, const place::Camera& eye)
+    : space_(room.polygon.space),
+      radius_(room.polygon.circumradius),
       height_(room.height),
       eye_z_(eye.z),
       pixels_(place::pixels_per_radian(eye)),

@@ -1,7 +1,7 @@
 #pragma once
 #include "compiler/geometry/isometry.h"
-#include "compiler/place/eye.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/camera.h"
+#include "compiler/place/interior.h"
 #include "compiler/scene/scene.h"
 
 namespace orbc::cover {
@@ -10,7 +10,7 @@ namespace orbc::cover {
 /// depends on the distance of the copy only. It is infinite on S², where nothing becomes small, and around the eye.
 class ProjectedSize {
  public:
-  ProjectedSize(const place::PlacedRoom& room, const place::Eye& eye);
+  ProjectedSize(const place::Interior& room, const place::Camera& eye);
   /// In: arc length on the floor from the eye to the centre of the copy. Falls with the distance.
   [[nodiscard]] double at(double distance) const;
   [[nodiscard]] double of(const geometry::Isometry& cover_from_room) const;

@@ -89,13 +89,13 @@ ImportanceEstimate estimate_of(const Copy& copy, const Model& model, const geome
 
 }  // namespace
 
-Contents contents_of(const place::PlacedRoom& room) {
+Contents contents_of(const place::Interior& room) {
   Contents contents{&room, {{}}, {}};
   for (const place::PlacedMesh& part : room.parts) contents.models.front().push_back(&part);
   return contents;
 }
 
-std::vector<Sample> stratified_sample(const std::vector<Copy>& copies, const Contents& contents, const place::Eye& eye,
+std::vector<Sample> stratified_sample(const std::vector<Copy>& copies, const Contents& contents, const place::Camera& eye,
                                       std::size_t max_samples) {
   std::vector<Sample> samples;
   if (copies.size() <= max_samples) {
@@ -103,7 +103,7 @@ std::vector<Sample> stratified_sample(const std::vector<Copy>& copies, const Con
     return samples;
   }
   const auto eye_from_cover = inverse(eye.room_from_eye);
-  const std::vector<Model> models = models_of(contents, contents.room->room.space);
+  const std::vector<Model> models = models_of(contents, contents.room->polygon.space);
   std::vector<ImportanceEstimate> estimates;
   estimates.reserve(copies.size());
   for (std::size_t i = 0; i < copies.size(); ++i)

@@ -8,7 +8,7 @@
 namespace orbc::cover {
 namespace {
 
-const place::PlacedMirror* mirror_of(const place::PlacedRoom& room, int surface) {
+const place::PlacedMirror* mirror_of(const place::Interior& room, int surface) {
   for (const place::PlacedMirror& mirror : room.mirrors)
     if (mirror.wall == surface) return &mirror;
   return nullptr;
@@ -16,9 +16,9 @@ const place::PlacedMirror* mirror_of(const place::PlacedRoom& room, int surface)
 
 }  // namespace
 
-bool has_storeys(const place::PlacedRoom& room) { return mirror_of(room, -1) || mirror_of(room, -2); }
+bool has_storeys(const place::Interior& room) { return mirror_of(room, -1) || mirror_of(room, -2); }
 
-std::vector<WeightedStorey> storeys_within(const place::PlacedRoom& room, int max_bounces) {
+std::vector<WeightedStorey> storeys_within(const place::Interior& room, int max_bounces) {
   std::vector<WeightedStorey> storeys(1);
   const place::PlacedMirror *floor = mirror_of(room, -1), *ceiling = mirror_of(room, -2);
   scene::Color up{1, 1, 1}, down{1, 1, 1};
@@ -41,7 +41,7 @@ std::vector<WeightedStorey> storeys_within(const place::PlacedRoom& room, int ma
   return storeys;
 }
 
-Result<std::vector<Copy>> with_storeys(const std::vector<Copy>& copies, const place::PlacedRoom& room, const scene::CoverSpec& spec,
+Result<std::vector<Copy>> with_storeys(const std::vector<Copy>& copies, const place::Interior& room, const scene::CoverSpec& spec,
                                        std::uint64_t max_copies) {
   const std::vector<WeightedStorey> storeys = storeys_within(room, std::max(0, spec.max_bounces));
   std::vector<std::vector<Copy>> by_bounces(static_cast<std::size_t>(std::max(0, spec.max_bounces)) + 1);
@@ -51,7 +51,7 @@ Result<std::vector<Copy>> with_storeys(const std::vector<Copy>& copies, const pl
   for (const Copy& copy : copies) {
     for (const WeightedStorey& s : storeys) {
       const int bounces = bounces_of(copy, s);
-      if (bounces > spec.max_bounces || largest(copy.weight * s.weight) < spec.min_weight) continue;
+      if (bounces > spec.max_bounces || max_channel(copy.weight * s.weight) < spec.min_weight) continue;
       ++counts[static_cast<std::size_t>(bounces)];
       ++count;
     }
@@ -74,7 +74,7 @@ Result<std::vector<Copy>> with_storeys(const std::vector<Copy>& copies, const pl
       on.bounces = bounces_of(copy, s);
       on.weight = copy.weight * s.weight;
       on.storey = s.storey;
-      if (on.bounces > spec.max_bounces || largest(on.weight) < spec.min_weight) continue;
+      if (on.bounces > spec.max_bounces || max_channel(on.weight) < spec.min_weight) continue;
       by_bounces[static_cast<std::size_t>(on.bounces)].push_back(std::move(on));
     }
   }

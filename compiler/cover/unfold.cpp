@@ -29,7 +29,7 @@ Copy copy_of(const EnumerationLimits& limits, const Element& element, const geom
   return copy;
 }
 
-Result<std::vector<Copy>> unfold_by_group(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+Result<std::vector<Copy>> unfold_by_group(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                           const UnfoldOptions& options) {
   const EnumerationLimits limits = enumeration_limits(room, spec);
   std::vector<std::vector<Copy>> by_bounces(static_cast<std::size_t>(limits.max_bounces) + 1);
@@ -56,7 +56,7 @@ Result<std::vector<Copy>> unfold_by_group(const place::PlacedRoom& room, const p
 
 }  // namespace
 
-Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+Result<std::vector<Copy>> unfold(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                  const UnfoldOptions& options) {
   auto copies = needs_beams(room)
                     ? unfold_by_beams(room, eye, spec, {std::min(options.max_copies, BeamOptions().max_beams), options.progress})

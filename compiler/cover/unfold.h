@@ -5,8 +5,8 @@
 #include "compiler/base/progress.h"
 #include "compiler/base/result.h"
 #include "compiler/cover/copy.h"
-#include "compiler/place/eye.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/camera.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::cover {
 
@@ -23,7 +23,7 @@ struct UnfoldOptions {
 /// Exact:       words and their number (no floating-point number decides). `min_pixels` compares measured sizes (projected_size.h).
 ///              What lies behind a copy below `min_pixels` is left out too, or hidden by a panel in its mirror (driver/tail.h).
 /// Diagnostics: cover.too-much beyond `max_copies`, with a max_bounces that fits.
-[[nodiscard]] Result<std::vector<Copy>> unfold(const place::PlacedRoom& room, const place::Eye& eye, const scene::CoverSpec& spec,
+[[nodiscard]] Result<std::vector<Copy>> unfold(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                                const UnfoldOptions& options = {});
 
 }  // namespace orbc::cover

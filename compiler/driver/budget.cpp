@@ -42,14 +42,14 @@ class Search {
     for (const auto& of_part : levels)
       for (const Level& level : of_part) level_uv_[&level].resize(level.mesh.floor.size());
     // Their looks are none of the room's yet.
-    const auto no_look = static_cast<std::uint16_t>(room_.looks.size());
+    const auto no_look = static_cast<std::uint16_t>(room_.styles.size());
     plain_panels_ = curtains(room_, no_look);
     banded_panels_ = curtains(room_, no_look, bands_of(room_, opened.eye));
     flat_panels_ = curtains(room_, no_look, bands_of(room_, opened.eye), true);
     for (const auto* panels : {&plain_panels_, &banded_panels_, &flat_panels_})
       for (const place::PlacedMesh& panel : *panels) panel_uv_[&panel].resize(panel.floor.size());
     const bend::ScreenSize detail(opened.eye, options);
-    const bend::BoundingCylinder whole{{}, room_.room.circumradius, 0, room_.height};
+    const bend::BoundingCylinder whole{{}, room_.polygon.circumradius, 0, room_.height};
     for (const cover::Copy& copy : copies) sizes_.push_back(detail.smaller_side_px(copy, whole));
   }
 
@@ -101,7 +101,7 @@ class Search {
   }
 
   const Opened& opened_;
-  const place::PlacedRoom& room_;
+  const place::Interior& room_;
   const Levels& levels_;
   const std::vector<cover::Copy>& copies_;
   std::uint64_t budget_;

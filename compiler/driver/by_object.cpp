@@ -12,7 +12,7 @@ Key key_of(const place::PlacedMesh& part) { return {part.kind, part.name}; }
 
 }  // namespace
 
-ByObject part_by_object(const place::PlacedRoom& room, std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
+ByObject part_by_object(const place::Interior& room, std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy) {
   ByObject by;
   std::map<Key, std::uint32_t> number;
   for (const place::PlacedMesh& part : room.parts)

@@ -17,7 +17,7 @@ struct ByObject {
 /// Parts models by the objects that their meshes belong to.
 /// In:    the room for the order of its parts; models, and which one each copy is drawn from.
 /// Makes: the models parted, `model_of_copy` for every entry. What is drawn is the same triangles in another order.
-[[nodiscard]] ByObject part_by_object(const place::PlacedRoom& room, std::vector<bend::Model>& models,
+[[nodiscard]] ByObject part_by_object(const place::Interior& room, std::vector<bend::Model>& models,
                                       std::vector<std::uint32_t>& model_of_copy);
 
 }  // namespace orbc::driver

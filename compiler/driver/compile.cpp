@@ -24,18 +24,18 @@
 #include "compiler/driver/tail.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/notation/print.h"
-#include "compiler/place/texel.h"
+#include "compiler/place/alpha_mask.h"
 
 namespace orbc::driver {
 namespace {
 
 // The room's centre is the origin of its coordinates.
-double distance_to(const cover::Copy& copy, const place::Eye& eye) {
+double distance_to(const cover::Copy& copy, const place::Camera& eye) {
   const geometry::Space space = eye.room_from_eye.space;
   return geometry::distance(space, copy.cover_from_room * geometry::Point(), eye.room_from_eye * geometry::Point());
 }
 
-std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::vector<bend::BentRange>& ranges, const place::Eye& eye) {
+std::vector<DrawnCopy> drawn(const std::vector<cover::Copy>& copies, const std::vector<bend::BentRange>& ranges, const place::Camera& eye) {
   std::vector<DrawnCopy> result;
   result.reserve(copies.size());
   for (std::size_t i = 0; i < copies.size(); ++i) {
@@ -79,7 +79,7 @@ ToldLevels told(const place::PlacedMesh& part, const std::vector<Level>& levels)
 /// Why a scene cannot be compiled at all.
 std::optional<Diagnostic> refusal(const Opened& opened, const CompileOptions& options, const std::vector<cover::Copy>& copies) {
   if (std::any_of(opened.room->mirrors.begin(), opened.room->mirrors.end(),
-                  [](const place::PlacedMirror& m) { return !(m.glow == scene::Color{}); })) {
+                  [](const place::PlacedMirror& m) { return !(m.emission == scene::Color{}); })) {
     return make_error("driver.glowing-mirror", "a mirror that glows adds light to all that is seen in it: exports can only multiply",
                       "leave out `glow`, or draw the scene with the tracer (`orbc trace`)");
   }
@@ -175,7 +175,7 @@ Beyond look(const Opened& opened, const Opened* lit, const Ready& ready, bool ex
     if (!expected) beyond.color = background;
     return beyond;
   }
-  Beyond beyond = look_beyond(opened, rough(*opened.room, ready.levels, kRough * opened.room->room.circumradius), {}, executor);
+  Beyond beyond = look_beyond(opened, rough(*opened.room, ready.levels, kRough * opened.room->polygon.circumradius), {}, executor);
   beyond.color = background;
   return beyond;
 }
@@ -196,7 +196,7 @@ Diagnostics dress(const Opened& opened, const Opened* lit, const CompileOptions&
   PaintOptions painting = options.paint;
   painting.highlights = painting.highlights && for_eye;
   painting.lit = purpose == Purpose::product;
-  painting.with_image16 = opened.scene.bake.atlas != scene::AtlasDepth::eight;
+  painting.with_image16 = opened.scene.bake.atlas != scene::AtlasFormat::srgb8;
   auto painted = paint(opened, stock.room, ready.copies, parts_of(stock, ready.choice), bake::bake_options(opened.scene.bake), painting,
                        executor, progress);
   if (!painted) return painted.error();
@@ -252,7 +252,7 @@ Result<cover::Plan> estimated(const Opened& opened, const CompileOptions& option
 /// Draws what glows, and what belongs to lamps, as copies of their own behind the others: the parts of every model are parted.
 void part_what_glows(Ready& ready) {
   const std::size_t whole = ready.copies.size(), models = ready.models.size();
-  const place::PlacedRoom& room = ready.painted.atlas.room;
+  const place::Interior& room = ready.painted.atlas.room;
   std::array<std::vector<bend::Model>, 3> parted;
   for (std::vector<bend::Model>& own : parted) own.resize(models);
   for (std::size_t m = 0; m < models; ++m)
@@ -382,7 +382,7 @@ Product product_of(const Opened& opened, const CompileOptions& options, Ready& r
   product.atlas = std::move(ready.painted.atlas.image);
   product.atlas16 = std::move(ready.painted.atlas.image16);
   product.depth = opened.scene.bake.atlas;
-  product.masked = place::has_holes(*opened.room);
+  product.masked = place::has_alpha_mask(*opened.room);
   product.blended_atlas = ready.painted.baked;
   product.copies = drawn(ready.copies, bent.copies, opened.eye);
   for (std::size_t i = 0; i < product.copies.size(); ++i) product.copies[i].level = ready.tally.level_of_copy[i];
@@ -462,7 +462,7 @@ Result<Tiling> tile(const Opened& opened, Tiling::Model model, Tiling::Colouring
   for (cover::Copy& copy : *copies)
     if (copy.sheet == 0 && copy.storey.number == 0) first_sheet.push_back(std::move(copy));
   return Tiling{
-      notation::to_text(opened.scene.orbifold), opened.room->room, std::move(first_sheet), model, colouring, opened.eye.room_from_eye};
+      notation::to_text(opened.scene.orbifold), opened.room->polygon, std::move(first_sheet), model, colouring, opened.eye.room_from_eye};
 }
 
 }  // namespace orbc::driver

@@ -36,7 +36,7 @@ std::vector<std::uint64_t> rounded(const std::vector<double>& values) {
 
 }  // namespace
 
-Result<cover::Plan> estimate(const cover::Contents& contents, const place::Eye& eye, const std::vector<cover::Copy>& copies,
+Result<cover::Plan> estimate(const cover::Contents& contents, const place::Camera& eye, const std::vector<cover::Copy>& copies,
                              int max_bounces, std::uint64_t max_bytes, const BendSome& bend_some, std::uint64_t most_triangles) {
   cover::Plan plan = cover::plan_of(copies, *contents.room);
   const double fit = static_cast<double>(most_triangles) / std::max(1.0, mean_triangles(contents, copies.size()));

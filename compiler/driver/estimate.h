@@ -19,7 +19,7 @@ using BendSome = std::function<Result<bend::BentCover>(const std::vector<std::si
 ///              bent: then it is exact.
 /// Diagnostics: cover.too-much when the product would exceed `max_bytes`: the hint names the largest max_bounces that fits; those of
 ///              `bend_some`.
-[[nodiscard]] Result<cover::Plan> estimate(const cover::Contents& contents, const place::Eye& eye,
+[[nodiscard]] Result<cover::Plan> estimate(const cover::Contents& contents, const place::Camera& eye,
                                            const std::vector<cover::Copy>& copies, int max_bounces, std::uint64_t max_bytes,
                                            const BendSome& bend_some, std::uint64_t most_triangles = 4'000'000);
 

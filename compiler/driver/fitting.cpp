@@ -36,7 +36,7 @@ Opened with_bounces(const Opened& opened, int max_bounces) {
   other.scene.cover.max_bounces = max_bounces;
   other.eye = opened.eye;
   other.expected_background = opened.expected_background;
-  other.room = std::make_unique<place::PlacedRoom>(*opened.room);
+  other.room = std::make_unique<place::Interior>(*opened.room);
   return other;
 }
 

@@ -120,7 +120,7 @@ std::vector<std::array<std::uint32_t, 2>> borders_of(const PlacedMesh& part, con
   for (std::size_t i = 0; i < part.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const auto a = weld[part.triangles[i][k]], b = weld[part.triangles[i][(k + 1) % 3]];
-      sides.push_back({std::min(a, b), std::max(a, b), part.look[i]});
+      sides.push_back({std::min(a, b), std::max(a, b), part.style[i]});
     }
   std::sort(sides.begin(), sides.end(),
             [](const Side& p, const Side& q) { return std::tie(p.a, p.b, p.look) < std::tie(q.a, q.b, q.look); });
@@ -163,7 +163,7 @@ double largest_distance(const mesh::Mesh& a, const mesh::ClosestPointTree& to_a,
 
 bool is_heavy(const PlacedMesh& part) {
   if (part.kind != place::PartKind::object || part.triangles.size() < kHeavy || !part.uv.empty()) return false;
-  return std::set<std::uint16_t>(part.look.begin(), part.look.end()).size() <= 256;
+  return std::set<std::uint16_t>(part.style.begin(), part.style.end()).size() <= 256;
 }
 
 PlacedMesh stand_in(const PlacedMesh& part, const mesh::Decimated& coarse, const std::vector<std::uint16_t>& looks) {
@@ -175,7 +175,7 @@ PlacedMesh stand_in(const PlacedMesh& part, const mesh::Decimated& coarse, const
     if (!part.pattern_position.empty()) mesh.pattern_position.push_back(part.pattern_position[v]);
   }
   mesh.triangles = coarse.mesh.triangles;
-  for (const std::uint16_t look : coarse.mesh.triangle_material) mesh.look.push_back(looks[look]);
+  for (const std::uint16_t look : coarse.mesh.triangle_material) mesh.style.push_back(looks[look]);
   return mesh;
 }
 
@@ -185,10 +185,10 @@ std::vector<Level> levels_of(Space space, const PlacedMesh& part, const Executor
   mesh::Mesh flat;
   for (std::size_t i = 0; i < part.floor.size(); ++i) flat.positions.push_back(chart(part.floor[i], part.z[i]));
   flat.triangles = part.triangles;
-  std::vector<std::uint16_t> looks(part.look);
+  std::vector<std::uint16_t> looks(part.style);
   std::sort(looks.begin(), looks.end());
   looks.erase(std::unique(looks.begin(), looks.end()), looks.end());
-  for (const std::uint16_t look : part.look)
+  for (const std::uint16_t look : part.style)
     flat.triangle_material.push_back(static_cast<std::uint16_t>(std::lower_bound(looks.begin(), looks.end(), look) - looks.begin()));
   std::vector<std::size_t> numbers;
   for (double n = kStep * static_cast<double>(part.triangles.size()); n >= kLightest; n *= kStep)
@@ -240,23 +240,23 @@ class Gatherer {
 
 }  // namespace
 
-Levels make_levels(const place::PlacedRoom& room, const Executor& executor) {
+Levels make_levels(const place::Interior& room, const Executor& executor) {
   Levels levels(room.parts.size());
   executor(room.parts.size(), [&](std::size_t i) {
-    if (is_heavy(room.parts[i])) levels[i] = levels_of(room.room.space, room.parts[i], executor);
+    if (is_heavy(room.parts[i])) levels[i] = levels_of(room.polygon.space, room.parts[i], executor);
   });
   return levels;
 }
 
-Choice no_levels(const place::PlacedRoom& room, std::size_t copies) {
+Choice no_levels(const place::Interior& room, std::size_t copies) {
   return {{std::vector<std::uint16_t>(room.parts.size(), 0)}, std::vector<std::uint32_t>(copies, 0), 0};
 }
 
-Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const std::vector<cover::Copy>& copies, const place::Eye& eye,
+Choice choose_levels(const place::Interior& room, const Levels& levels, const std::vector<cover::Copy>& copies, const place::Camera& eye,
                      const bend::BendOptions& options) {
   const bend::ScreenSize detail(eye, options);
   std::vector<bend::BoundingCylinder> extents;
-  for (const PlacedMesh& part : room.parts) extents.push_back(bend::bounding_cylinder(room.room.space, part));
+  for (const PlacedMesh& part : room.parts) extents.push_back(bend::bounding_cylinder(room.polygon.space, part));
   Gatherer gatherer;
   std::vector<std::uint16_t> model(room.parts.size(), 0);
   for (const cover::Copy& copy : copies) {
@@ -279,10 +279,10 @@ Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const 
   return std::move(gatherer.choice_);
 }
 
-place::PlacedRoom rough(const place::PlacedRoom& room, const Levels& levels, double error) {
-  place::PlacedRoom stand_in;
-  stand_in.room = room.room, stand_in.height = room.height, stand_in.mirrors = room.mirrors, stand_in.looks = room.looks;
-  for (place::Look& look : stand_in.looks) look.texture = -1;
+place::Interior rough(const place::Interior& room, const Levels& levels, double error) {
+  place::Interior stand_in;
+  stand_in.polygon = room.polygon, stand_in.height = room.height, stand_in.mirrors = room.mirrors, stand_in.styles = room.styles;
+  for (place::SurfaceStyle& look : stand_in.styles) look.texture = -1;
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
     const Level* coarsest = nullptr;
     for (const Level& level : levels[p])
@@ -292,7 +292,7 @@ place::PlacedRoom rough(const place::PlacedRoom& room, const Levels& levels, dou
   return stand_in;
 }
 
-LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choice& choice) {
+LevelTally tally(const place::Interior& room, const Levels& levels, const Choice& choice) {
   LevelTally all;
   std::uint64_t whole = 0;
   for (const PlacedMesh& part : room.parts) whole += part.triangles.size();
@@ -309,7 +309,7 @@ LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choi
   return all;
 }
 
-Stock stock_of(const place::PlacedRoom& room, const Levels& levels, const Choice& choice) {
+Stock stock_of(const place::Interior& room, const Levels& levels, const Choice& choice) {
   Stock stock{room, {}, std::vector<double>(room.parts.size(), 0.0)};
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
     stock.part_of_level.emplace_back(1, static_cast<std::uint32_t>(p));

@@ -5,7 +5,7 @@
 #include "compiler/base/executor.h"
 #include "compiler/bend/screen_size.h"
 #include "compiler/cover/copy.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/interior.h"
 
 namespace orbc::driver {
 
@@ -22,7 +22,7 @@ using Levels = std::vector<std::vector<Level>>;
 /// Simplifies the heavy objects of a room, once for all copies.
 /// Makes: levels of about 2/5 of the triangles of the one before.
 /// Error: measured at points a few triangles' edges of the part apart (levels.cpp).
-[[nodiscard]] Levels make_levels(const place::PlacedRoom& room, const Executor& executor);
+[[nodiscard]] Levels make_levels(const place::Interior& room, const Executor& executor);
 
 /// Which level of each part a copy is drawn from (0 = the part itself); copies with the same choice share it.
 struct Choice {
@@ -32,14 +32,14 @@ struct Choice {
 };
 
 /// For each copy and part the coarsest level that is displaced by at most the tolerance of `options`.
-[[nodiscard]] Choice choose_levels(const place::PlacedRoom& room, const Levels& levels, const std::vector<cover::Copy>& copies,
-                                   const place::Eye& eye, const bend::BendOptions& options);
+[[nodiscard]] Choice choose_levels(const place::Interior& room, const Levels& levels, const std::vector<cover::Copy>& copies,
+                                   const place::Camera& eye, const bend::BendOptions& options);
 /// Every copy whole.
-[[nodiscard]] Choice no_levels(const place::PlacedRoom& room, std::size_t copies);
+[[nodiscard]] Choice no_levels(const place::Interior& room, std::size_t copies);
 
 /// A stand-in of the room for questions about all of it at once: each part at its coarsest level within `error` (intrinsic length), without
 /// pictures.
-[[nodiscard]] place::PlacedRoom rough(const place::PlacedRoom& room, const Levels& levels, double error);
+[[nodiscard]] place::Interior rough(const place::Interior& room, const Levels& levels, double error);
 
 /// What a choice comes to, before bending.
 struct LevelTally {
@@ -47,14 +47,14 @@ struct LevelTally {
   std::uint64_t saved = 0;          ///< triangles
   std::uint64_t triangles = 0;      ///< of all copies
 };
-[[nodiscard]] LevelTally tally(const place::PlacedRoom& room, const Levels& levels, const Choice& choice);
+[[nodiscard]] LevelTally tally(const place::Interior& room, const Levels& levels, const Choice& choice);
 
 /// The room with the levels that a choice uses as further parts, to be given colours all at once.
 struct Stock {
-  place::PlacedRoom room;                                 ///< the parts of the room come first
+  place::Interior room;                                 ///< the parts of the room come first
   std::vector<std::vector<std::uint32_t>> part_of_level;  ///< [part][level]: index in `room.parts`
   std::vector<double> beside;                             ///< per part of `room`: Level::error, 0 of the parts themselves
 };
-[[nodiscard]] Stock stock_of(const place::PlacedRoom& room, const Levels& levels, const Choice& choice);
+[[nodiscard]] Stock stock_of(const place::Interior& room, const Levels& levels, const Choice& choice);
 
 }  // namespace orbc::driver

@@ -25,14 +25,14 @@ using geometry::Vector3;
 using scene::LampKind;
 using scene::MaterialKind;
 
-bool glows(const place::PlacedRoom& room, std::uint16_t look) { return room.looks[look].material.kind == MaterialKind::emissive; }
+bool glows(const place::Interior& room, std::uint16_t look) { return room.styles[look].material.kind == MaterialKind::emissive; }
 
 /// The triangles of a part that glow, or the others.
-place::PlacedMesh half_of(const place::PlacedRoom& room, const place::PlacedMesh& part, bool glowing) {
+place::PlacedMesh half_of(const place::Interior& room, const place::PlacedMesh& part, bool glowing) {
   place::PlacedMesh half = part;
-  half.triangles.clear(), half.look.clear();
+  half.triangles.clear(), half.style.clear();
   for (std::size_t t = 0; t < part.triangles.size(); ++t)
-    if (glows(room, part.look[t]) == glowing) half.triangles.push_back(part.triangles[t]), half.look.push_back(part.look[t]);
+    if (glows(room, part.style[t]) == glowing) half.triangles.push_back(part.triangles[t]), half.style.push_back(part.style[t]);
   return half;
 }
 
@@ -81,7 +81,7 @@ struct MirrorWeight {
   scene::Color color{0, 0, 0};
   bool alike = true;
 };
-MirrorWeight weight_of(const place::PlacedRoom& room) {
+MirrorWeight weight_of(const place::Interior& room) {
   MirrorWeight mean;
   for (const place::PlacedMirror& m : room.mirrors) {
     const scene::Color own = m.throughput;
@@ -106,35 +106,35 @@ NativeLamp lamp_in(const IntoCopy& eye_from_room, const light::PlacedLamp& lamp,
 
 std::string why_approximate(const Opened& opened, bool mirrors_alike) {
   const scene::Scene& scene = opened.scene;
-  const place::PlacedRoom& room = *opened.room;
+  const place::Interior& room = *opened.room;
   std::vector<std::string> why;
-  if (room.room.space != Space::euclidean)
-    why.push_back(fmt::format("light follows curves in {} rooms, but straight lines in renderers", name(room.room.space)));
+  if (room.polygon.space != Space::euclidean)
+    why.push_back(fmt::format("light follows curves in {} rooms, but straight lines in renderers", name(room.polygon.space)));
   if (!mirrors_alike) why.push_back("mirrors that are not all alike give light their mean weight");
   if (cover::needs_beams(room)) why.push_back("copies are cut to what the eye sees of them, and so are their shadows");
   if (std::any_of(scene.lamps.begin(), scene.lamps.end(), [](const scene::Lamp& l) { return l.kind == LampKind::tube; }))
     why.push_back("tubes shine alike to all sides");
   if (scene.integrator == scene::Integrator::path) why.push_back("what surfaces pass on to each other is left out");
-  const auto shiny = [](const place::Look& look) {
+  const auto shiny = [](const place::SurfaceStyle& look) {
     return look.material.kind != MaterialKind::matte && look.material.kind != MaterialKind::emissive;
   };
-  if (std::any_of(room.looks.begin(), room.looks.end(), shiny)) why.push_back("all surfaces are matte");
+  if (std::any_of(room.styles.begin(), room.styles.end(), shiny)) why.push_back("all surfaces are matte");
   return fmt::format("{}", fmt::join(why, "; "));
 }
 
 }  // namespace
 
-bool lit_natively(const scene::Scene& scene) { return scene.bake.lights == scene::LightsBy::native && !scene.lamps.empty(); }
+bool lit_natively(const scene::Scene& scene) { return scene.bake.lights == scene::LightMode::native && !scene.lamps.empty(); }
 
 Opened unlit_twin(const Opened& opened) {
   Opened twin;
   twin.scene = opened.scene, twin.eye = opened.eye, twin.expected_background = opened.expected_background;
-  twin.room = std::make_unique<place::PlacedRoom>(*opened.room);
+  twin.room = std::make_unique<place::Interior>(*opened.room);
   twin.scene.lamps.clear();
   twin.scene.integrator = scene::Integrator::direct;
   twin.scene.exposure = 1;
-  place::PlacedRoom& room = *twin.room;
-  for (place::Look& look : room.looks) {
+  place::Interior& room = *twin.room;
+  for (place::SurfaceStyle& look : room.styles) {
     scene::Material& m = look.material;
     if (m.kind != MaterialKind::emissive) {
       m.kind = MaterialKind::matte;
@@ -144,8 +144,8 @@ Opened unlit_twin(const Opened& opened) {
   }
   std::vector<place::PlacedMesh> parts;
   for (place::PlacedMesh& part : room.parts) {
-    const auto count = std::count_if(part.look.begin(), part.look.end(), [&](std::uint16_t look) { return glows(room, look); });
-    if (count == 0 || count == static_cast<std::ptrdiff_t>(part.look.size())) {
+    const auto count = std::count_if(part.style.begin(), part.style.end(), [&](std::uint16_t look) { return glows(room, look); });
+    if (count == 0 || count == static_cast<std::ptrdiff_t>(part.style.size())) {
       parts.push_back(std::move(part));
       continue;
     }
@@ -156,19 +156,19 @@ Opened unlit_twin(const Opened& opened) {
   return twin;
 }
 
-Shine shine_of(const place::PlacedRoom& room, const place::PlacedMesh& part) {
-  if (part.look.empty() || !glows(room, part.look[0])) return Shine::lit;
+Shine shine_of(const place::Interior& room, const place::PlacedMesh& part) {
+  if (part.style.empty() || !glows(room, part.style[0])) return Shine::lit;
   return light::lamp_of_part(part) >= 0 || part.kind != place::PartKind::object ? Shine::lamp : Shine::glowing;
 }
 
 Diagnostics add_native_light(const Opened& opened, const std::vector<cover::Copy>& copies, Product& product, const Executor& executor) {
-  const place::PlacedRoom& room = *opened.room;
-  const Space space = room.room.space;
-  const auto hung = light::place_lamps(opened.scene, room.room);
+  const place::Interior& room = *opened.room;
+  const Space space = room.polygon.space;
+  const auto hung = light::place_lamps(opened.scene, room.polygon);
   if (!hung) return hung.error();
   const light::LightOptions options = light::light_options(opened.scene);
   const auto found = light::lamp_images(hung->lamps, room, {options.bounces, opened.scene.exposure, options.cull_below});
-  if (!found) return located(found.error(), opened.scene.bake.mirrors_span);
+  if (!found) return located(found.error(), opened.scene.bake.mirror_bounces_span);
   const std::vector<light::LampImage>& images = *found;
   const auto lit = static_cast<std::size_t>(
       std::count_if(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.shine == Shine::lit && !c.again_of; }));

@@ -10,7 +10,7 @@ namespace orbc::driver {
 /// The scene as the renderer's lamps find it: without lamps, in plain colours; what glows as it is shown, in parts of its own.
 [[nodiscard]] Opened unlit_twin(const Opened& opened);
 /// How the triangles of a part of the twin shine. In: a part whose looks all glow, or none.
-[[nodiscard]] Shine shine_of(const place::PlacedRoom& room, const place::PlacedMesh& part);
+[[nodiscard]] Shine shine_of(const place::Interior& room, const place::PlacedMesh& part);
 
 /// Hangs the lamps of a scene into its product: for every copy the images of the room's lamps that light reaches it from over
 /// `bake.mirrors` mirrors, with their weights; and gives it normals.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLargestInput = 8 << 20;  // read_scene refuses less; this only keeps an endless pipe out of the memory
 
-Result<scene::Read> read(const std::string& path, const scene::Overrides& overrides) {
+Result<scene::ReadResult> read(const std::string& path, const scene::Overrides& overrides) {
   if (path != "-") return scene::load_scene(path, overrides);
   auto source = std::make_shared<SourceText>();
   source->name = "<stdin>";
@@ -41,14 +41,14 @@ Result<Opened> open_scene(const std::string& path, const scene::Overrides& overr
   const auto lamps = light::place_lamps(opened.scene, *room);
   if (!lamps) return located(lamps.error(), opened.scene.span);
   append(opened.notes, located(lamps.value().warnings, opened.scene.span));
-  if (auto inside = light::lamps_inside_objects(opened.scene, *lamps, furnished->room); !inside.empty()) return inside;
+  if (auto inside = light::lamps_inside_objects(opened.scene, *lamps, furnished->interior); !inside.empty()) return inside;
   const light::LightOptions light = light::light_options(opened.scene);
-  if (const auto images = light::lamp_images(lamps->lamps, furnished->room, {light.bounces, opened.scene.exposure, light.cull_below});
+  if (const auto images = light::lamp_images(lamps->lamps, furnished->interior, {light.bounces, opened.scene.exposure, light.cull_below});
       !images)
-    return located(located(images.error(), opened.scene.bake.mirrors_span), opened.scene.span);
-  light::add_lamp_bodies(opened.scene, *lamps, furnished->room);
-  opened.room = std::make_unique<place::PlacedRoom>(std::move(furnished->room));
-  const auto eye = place::make_eye(opened.scene, *opened.room);
+    return located(located(images.error(), opened.scene.bake.mirror_bounces_span), opened.scene.span);
+  light::add_lamp_bodies(opened.scene, *lamps, furnished->interior);
+  opened.room = std::make_unique<place::Interior>(std::move(furnished->interior));
+  const auto eye = place::make_camera(opened.scene, *opened.room);
   if (!eye) return located(eye.error(), opened.scene.camera.span.source ? opened.scene.camera.span : opened.scene.span);
   opened.eye = *eye;
   return opened;

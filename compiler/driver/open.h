@@ -3,8 +3,8 @@
 #include <string>
 
 #include "compiler/base/result.h"
-#include "compiler/place/eye.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/camera.h"
+#include "compiler/place/interior.h"
 #include "compiler/scene/override.h"
 #include "compiler/scene/scene.h"
 
@@ -15,8 +15,8 @@ struct Prepared;
 /// A scene that has been read, realised, furnished and looked at: where both roads begin.
 struct Opened {
   scene::Scene scene;
-  std::unique_ptr<place::PlacedRoom> room;  ///< keeps its place in memory: the tracer refers to it
-  place::Eye eye;
+  std::unique_ptr<place::Interior> room;  ///< keeps its place in memory: the tracer refers to it
+  place::Camera eye;
   Diagnostics notes;
   /// Where paths are cut off one sees what is expected beyond (tail.h), times their weight, not `cover.background`
   bool expected_background = false;

@@ -17,23 +17,23 @@ light::LightingContext dark(const scene::Scene& scene) {
 }
 
 // Plain colours are what lit ones are without light: seen at the scene's exposure, and times its emission where something glows.
-place::PlacedRoom exposed(place::PlacedRoom room, double exposure) {
-  for (place::Look& look : room.looks)
+place::Interior exposed(place::Interior room, double exposure) {
+  for (place::SurfaceStyle& look : room.styles)
     look.color = (exposure * (look.material.kind == scene::MaterialKind::emissive ? look.material.emission : 1)) * look.color;
   return room;
 }
 
 /// By how much the points of a bake lie denser than its options say: these mean rooms of some units. In a tiny one no shadow would be
 /// found, and of a huge one no picture would hold all points.
-double density_for(const place::PlacedRoom& room) {
+double density_for(const place::Interior& room) {
   constexpr double kSmall = 0.5, kLarge = 64;
-  const double extent = std::max(room.room.circumradius, room.height);
+  const double extent = std::max(room.polygon.circumradius, room.height);
   return extent < kSmall ? 1 / extent : extent > kLarge ? kLarge / extent : 1;
 }
 
 }  // namespace
 
-Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
+Result<Painted> paint(const Opened& opened, const place::Interior& room, const std::vector<cover::Copy>& copies,
                       const bake::DrawnParts& drawn, const bake::BakeOptions& baking, const PaintOptions& options, const Executor& executor,
                       const Progress& progress) {
   Painted painted;

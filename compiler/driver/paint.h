@@ -27,7 +27,7 @@ struct Painted {
 /// In:          the room to be painted: the opened one, perhaps with further parts (levels of detail), which cast no shadows; its copies,
 ///              and which parts they are drawn from.
 /// Diagnostics: those of light.
-[[nodiscard]] Result<Painted> paint(const Opened& opened, const place::PlacedRoom& room, const std::vector<cover::Copy>& copies,
+[[nodiscard]] Result<Painted> paint(const Opened& opened, const place::Interior& room, const std::vector<cover::Copy>& copies,
                                     const bake::DrawnParts& drawn, const bake::BakeOptions& baking, const PaintOptions& options,
                                     const Executor& executor, const Progress& progress = {});
 

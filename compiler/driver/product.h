@@ -8,7 +8,7 @@
 #include "compiler/cover/copy.h"
 #include "compiler/image/image.h"
 #include "compiler/mesh/mesh.h"
-#include "compiler/place/eye.h"
+#include "compiler/place/camera.h"
 #include "compiler/room/room.h"
 #include "compiler/scene/color.h"
 #include "compiler/scene/scene.h"
@@ -62,11 +62,11 @@ struct NativeLight {
 /// All that an exporter may know: dense meshes in eye coordinates (z up, right-handed), one atlas, one camera.
 struct Product {
   std::string title;  ///< "*22222", for comments and names
-  place::Eye eye;
+  place::Camera eye;
   scene::Color background;
   image::Image atlas;                                  ///< sRGB, rows from top to bottom
   image::Image16 atlas16;                              ///< the same with 16 bits a channel; empty unless asked for
-  scene::AtlasDepth depth = scene::AtlasDepth::eight;  ///< what exporters are to write of it
+  scene::AtlasFormat depth = scene::AtlasFormat::srgb8;  ///< what exporters are to write of it
   bool masked = false;                                 ///< texels of the atlas whose alpha is below one half are holes in what they cover
   bool blended_atlas = false;  ///< its texels are points of a smooth picture (baked light): to be looked up bilinearly
   std::vector<std::array<float, 3>> positions;

@@ -14,7 +14,7 @@ struct Faceted {
 };
 
 Faceted faceted(const Product& product, const DrawnCopy& copy) {
-  place::PlacedRoom flat;
+  place::Interior flat;
   place::PlacedMesh mesh;
   for (std::size_t i = copy.first_vertex; i < copy.first_vertex + copy.vertex_count; ++i) {
     const auto& p = product.positions[i];

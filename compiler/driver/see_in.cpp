@@ -27,13 +27,13 @@ orbc::trace::Ray looking_at(const orbc::trace::TraceScene& scene, const geometry
                             double beside) {
   const geometry::Space space = scene.prism.space;
   orbc::trace::Ray back = ray_from(space, at, to_eye);
-  back.t_min = orbc::trace::kLeave;
+  back.t_min = orbc::trace::kRayEpsilon;
   const orbc::trace::Hit hit = closest(scene, back);
-  double step = std::max(kBack * scene.room->height, 2 * beside);
-  if (hit.target != orbc::trace::Target::triangle) step = std::min(step, hit.t / 2);  // never out of the room
-  else if (!surface_at(scene, back, hit).outside) {  // out of the body first, but not into what stands there
-    back.t_min = hit.t + orbc::trace::kLeave;
-    step = std::max(step, hit.t + std::min(kBack * scene.room->height, (closest(scene, back).t - hit.t) / 2));
+  double step = std::max(kBack * scene.interior->height, 2 * beside);
+  if (hit.kind != orbc::trace::HitKind::triangle) step = std::min(step, hit.t / 2);  // never out of the room
+  else if (!surface_at(scene, back, hit).front_facing) {  // out of the body first, but not into what stands there
+    back.t_min = hit.t + orbc::trace::kRayEpsilon;
+    step = std::max(step, hit.t + std::min(kBack * scene.interior->height, (closest(scene, back).t - hit.t) / 2));
   }
   return ray_from(space, position_at(space, back, step), -direction_at(space, back, step));
 }
@@ -51,7 +51,7 @@ bake::SpecularQuery see_in(const Opened& opened, const bake::DiffuseBake* baked,
                    const light::SampleStratum& stratum) {
     orbc::trace::FollowOptions follow = render::follow_options(looking->draw);
     follow.bounces = copy.bounces;
-    follow.weight = copy.weight;
+    follow.throughput = copy.weight;
     render::PixelSampler sampler;
     sampler.stratum = stratum;
     const orbc::trace::Path path = orbc::trace::follow(looking->scene, looking_at(looking->scene, at, to_eye, beside), follow);

@@ -33,7 +33,7 @@ constexpr double kBands[] = {0.08, 0.22, 0.42, 0.68};
 struct Sum {
   scene::Color weight, radiance;
   void add(const Sum& more) { weight = weight + more.weight, radiance = radiance + more.radiance; }
-  [[nodiscard]] bool empty() const { return !(largest(weight) > 0); }
+  [[nodiscard]] bool empty() const { return !(max_channel(weight) > 0); }
   [[nodiscard]] scene::Color color() const {
     const auto share = [](double r, double w) { return w > 0 ? r / w : 0; };
     return {share(radiance.r, weight.r), share(radiance.g, weight.g), share(radiance.b, weight.b)};
@@ -49,17 +49,18 @@ struct Row {
 /// Where a path goes into the first copy that is left out.
 class Missing {
  public:
-  Missing(const place::PlacedRoom& room, const BeyondOptions& options) : room_(room), options_(options) {
-    for (std::size_t wall = 0; wall < room_.room.walls.size(); ++wall)
-      mirrors_.push_back(room::reflection_in_wall(room_.room, static_cast<int>(wall)));
-    const bool tiles = notation::is_orbifold(room_.room.orbifold);
-    if (room_.room.space == geometry::Space::spherical && tiles) half_turn_ = notation::longest_length(room_.room.orbifold).value_or(1);
+  Missing(const place::Interior& room, const BeyondOptions& options) : room_(room), options_(options) {
+    for (std::size_t wall = 0; wall < room_.polygon.walls.size(); ++wall)
+      mirrors_.push_back(room::reflection_in_wall(room_.polygon, static_cast<int>(wall)));
+    const bool tiles = notation::is_orbifold(room_.polygon.orbifold);
+    if (room_.polygon.space == geometry::Space::spherical && tiles)
+      half_turn_ = notation::longest_length(room_.polygon.orbifold).value_or(1);
   }
 
   /// How many mirrors are passed before it; the number of all when there is none.
   [[nodiscard]] std::size_t first(const std::vector<std::int16_t>& word) const {
     cover::Copy copy;
-    copy.cover_from_room = geometry::identity(room_.room.space);
+    copy.cover_from_room = geometry::identity(room_.polygon.space);
     int walls = 0;
     for (std::size_t i = 0; i < word.size(); ++i) {
       if (word[i] < 0) continue;  // a storey is as far away as the one before
@@ -78,7 +79,7 @@ class Missing {
   }
 
  private:
-  const place::PlacedRoom& room_;
+  const place::Interior& room_;
   const BeyondOptions& options_;
   std::vector<geometry::Isometry> mirrors_;
   int half_turn_ = 0;
@@ -89,8 +90,8 @@ class Missing {
 LeftOut left_out_below(const Opened& opened, double budget_px) {
   const scene::CoverSpec& spec = opened.scene.cover;
   if (!(spec.min_pixels > 0) && !(budget_px > 0)) return {};
-  const place::PlacedRoom& room = *opened.room;
-  const bend::BoundingCylinder whole{{}, room.room.circumradius, 0, room.height};
+  const place::Interior& room = *opened.room;
+  const bend::BoundingCylinder whole{{}, room.polygon.circumradius, 0, room.height};
   return [spec, budget_px, whole, size = cover::ProjectedSize(room, opened.eye),
           detail = bend::ScreenSize(opened.eye, {})](const cover::Copy& copy) {
     if (copy.bounces == 0) return false;
@@ -104,7 +105,7 @@ namespace {
 /// Looks along the rays of a grid.
 class Looker {
  public:
-  Looker(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor)
+  Looker(const Opened& opened, const place::Interior& room, const BeyondOptions& options, const Executor& executor)
       : opened_(opened),
         options_(options),
         executor_(executor),
@@ -169,8 +170,8 @@ class Looker {
   void cut_off(const orbc::trace::Ray& ray, Row& row) const {
     const orbc::trace::Path path = orbc::trace::follow(scene_, ray, render::follow_options(shown_));
     if (!path.cut_off) return;
-    row.lost += largest(path.weight);
-    if (options_.color) row.depth.add({path.weight, render::radiance(scene_, ray, deep_).radiance});
+    row.lost += max_channel(path.throughput);
+    if (options_.color) row.depth.add({path.throughput, render::radiance(scene_, ray, deep_).radiance});
   }
 
   void merged(const orbc::trace::Ray& ray, Row& row) const {
@@ -181,13 +182,13 @@ class Looker {
     if (mirrors == path.word.size()) return;
     follow.max_bounces = static_cast<int>(mirrors);
     const orbc::trace::Path short_path = orbc::trace::follow(scene_, ray, follow);
-    row.merged += largest(short_path.weight);
-    row.bands[missing_.band_at(short_path, ray)].add({short_path.weight, render::radiance(scene_, path, shown_).radiance});
+    row.merged += max_channel(short_path.throughput);
+    row.bands[missing_.band_at(short_path, ray)].add({short_path.throughput, render::radiance(scene_, path, shown_).radiance});
   }
 
   void everything(const orbc::trace::Ray& ray, Row& row) const {
     const render::RayResult seen = render::radiance(scene_, ray, shown_);
-    row.depth.add({seen.path.weight, seen.radiance});
+    row.depth.add({seen.path.throughput, seen.radiance});
   }
 
   const Opened& opened_;
@@ -201,16 +202,16 @@ class Looker {
 
 }  // namespace
 
-bool shows_beyond(const Opened& opened) { return opened.expected_background || largest(opened.scene.cover.background) > 0; }
+bool shows_beyond(const Opened& opened) { return opened.expected_background || max_channel(opened.scene.cover.background) > 0; }
 
-Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options, const Executor& executor) {
+Beyond look_beyond(const Opened& opened, const place::Interior& room, const BeyondOptions& options, const Executor& executor) {
   Looker looker(opened, room, options, executor);
   Beyond beyond = looker.cut_off();
   if (options.left_out) looker.merged(options.color, beyond);
   return beyond;
 }
 
-std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& eye) {
+std::vector<double> bands_of(const place::Interior& room, const place::Camera& eye) {
   std::vector<double> bands;
   if (std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; })) return bands;
   for (const double share : kBands) bands.insert(bands.begin(), eye.z * (1 - share));
@@ -222,7 +223,7 @@ std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& ey
 namespace {
 
 /// A panel on a wall: columns of pieces, since walls may be long and long triangles are split into many, and rows of bands.
-place::PlacedMesh wall_panel(const place::PlacedRoom& room, const place::PlacedMirror& mirror, double bottom, double top,
+place::PlacedMesh wall_panel(const place::Interior& room, const place::PlacedMirror& mirror, double bottom, double top,
                              std::uint16_t first_look, const std::vector<double>& bands, bool flat) {
   place::PlacedMesh panel;
   panel.kind = place::PartKind::wall, panel.wall = mirror.wall;
@@ -236,34 +237,34 @@ place::PlacedMesh wall_panel(const place::PlacedRoom& room, const place::PlacedM
   const auto pieces = flat ? 1U : static_cast<std::uint32_t>(std::clamp(std::ceil(length), 1.0, 64.0));
   const auto rows = static_cast<std::uint32_t>(heights.size());
   for (std::uint32_t k = 0; k <= pieces; ++k) {
-    const geometry::Point p = room::point_on_wall(room.room, mirror.wall, mirror.span[0] + length * k / pieces);
+    const geometry::Point p = room::point_on_wall(room.polygon, mirror.wall, mirror.span[0] + length * k / pieces);
     for (const double z : heights) panel.floor.push_back(p), panel.z.push_back(z);
     for (std::uint32_t j = 0; k < pieces && j + 1 < rows; ++j) {
       const std::uint32_t at = rows * k + j;
       panel.triangles.push_back({at, at + rows, at + rows + 1});
       panel.triangles.push_back({at, at + rows + 1, at + 1});
-      panel.look.insert(panel.look.end(), 2, looks[j]);
+      panel.style.insert(panel.style.end(), 2, looks[j]);
     }
   }
   return panel;
 }
 
-place::PlacedMesh level_panel(const place::PlacedRoom& room, bool floor, std::uint16_t look) {
+place::PlacedMesh level_panel(const place::Interior& room, bool floor, std::uint16_t look) {
   place::PlacedMesh panel;
   panel.kind = floor ? place::PartKind::floor : place::PartKind::ceiling;
-  panel.floor = room.room.outline;
+  panel.floor = room.polygon.outline;
   panel.floor.emplace_back();
   panel.z.assign(panel.floor.size(), floor ? 0 : room.height);
-  const auto n = static_cast<std::uint32_t>(room.room.outline.size());
+  const auto n = static_cast<std::uint32_t>(room.polygon.outline.size());
   for (std::uint32_t k = 0; k < n; ++k)
     panel.triangles.push_back(floor ? mesh::Triangle{n, k, (k + 1) % n} : mesh::Triangle{n, (k + 1) % n, k});
-  panel.look.assign(panel.triangles.size(), look);
+  panel.style.assign(panel.triangles.size(), look);
   return panel;
 }
 
 }  // namespace
 
-std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look, const std::vector<double>& bands,
+std::vector<place::PlacedMesh> curtains(const place::Interior& room, std::uint16_t first_look, const std::vector<double>& bands,
                                         bool flat) {
   std::vector<place::PlacedMesh> panels;
   const bool stacked = std::any_of(room.mirrors.begin(), room.mirrors.end(), [](const place::PlacedMirror& m) { return m.wall < 0; });
@@ -281,22 +282,22 @@ std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint
   return panels;
 }
 
-bool may_be_flat(const place::PlacedRoom& room, double pixels) {
+bool may_be_flat(const place::Interior& room, double pixels) {
   constexpr double kMost = 8;  // of larger ones the step at the floor's edge would be seen
-  return room.room.space != geometry::Space::spherical && pixels <= kMost;
+  return room.polygon.space != geometry::Space::spherical && pixels <= kMost;
 }
 
-CutOffs::CutOffs(const place::PlacedRoom& room, const scene::CoverSpec& spec, LeftOut left_out)
+CutOffs::CutOffs(const place::Interior& room, const scene::CoverSpec& spec, LeftOut left_out)
     : room_(room), spec_(spec), left_out_(std::move(left_out)) {
   for (const place::PlacedMirror& mirror : room.mirrors)
-    behind_.push_back(mirror.wall < 0 ? geometry::identity(room.room.space) : room::reflection_in_wall(room.room, mirror.wall));
+    behind_.push_back(mirror.wall < 0 ? geometry::identity(room.polygon.space) : room::reflection_in_wall(room.polygon, mirror.wall));
 }
 
 std::vector<CutOff> CutOffs::of(const cover::Copy& copy) const {
   std::vector<CutOff> ends(room_.mirrors.size(), CutOff::no);
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const place::PlacedMirror& mirror = room_.mirrors[i];
-    const bool last = copy.bounces >= spec_.max_bounces || largest(mirror.throughput * copy.weight) < spec_.min_weight;
+    const bool last = copy.bounces >= spec_.max_bounces || max_channel(mirror.throughput * copy.weight) < spec_.min_weight;
     if (mirror.wall < 0) {
       // On a storey above one looks up, through what is its ceiling, or its floor when it stands on its head.
       const int way = mirror.wall == -2 ? 1 : -1, towards = copy.storey.sign > 0 ? way : -way;
@@ -338,14 +339,14 @@ std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copi
   return hung;
 }
 
-std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<scene::Color>& colors, const std::vector<double>& bands,
+std::vector<std::size_t> add_curtains(place::Interior& room, const std::vector<scene::Color>& colors, const std::vector<double>& bands,
                                       bool flat) {
-  const std::size_t first = room.looks.size();
+  const std::size_t first = room.styles.size();
   for (const scene::Color& color : colors) {
-    place::Look look;
+    place::SurfaceStyle look;
     look.color = color;
     look.material.kind = scene::MaterialKind::emissive;  // it is the light itself
-    room.looks.push_back(look);
+    room.styles.push_back(look);
   }
   std::vector<std::size_t> parts;
   for (place::PlacedMesh& panel : curtains(room, static_cast<std::uint16_t>(first), bands, flat)) {

@@ -39,22 +39,22 @@ struct Beyond {
 ///        is cut off the grid's mean is right. The same for any executor. What only the weight is asked of may be a coarser stand-in of the
 ///        room.
 /// Error: that of the grid; light that surfaces pass on to each other is left out.
-[[nodiscard]] Beyond look_beyond(const Opened& opened, const place::PlacedRoom& room, const BeyondOptions& options,
+[[nodiscard]] Beyond look_beyond(const Opened& opened, const place::Interior& room, const BeyondOptions& options,
                                  const Executor& executor);
 
 /// A panel in each mirror (parallel to the room's): what is drawn where nothing lies behind it. Each band of heights between `bands` has a
 /// look of its own: first_look, first_look + 1, … from the floor up. `flat`: of as few triangles as that takes, to be drawn without splits.
-[[nodiscard]] std::vector<place::PlacedMesh> curtains(const place::PlacedRoom& room, std::uint16_t first_look,
+[[nodiscard]] std::vector<place::PlacedMesh> curtains(const place::Interior& room, std::uint16_t first_look,
                                                       const std::vector<double>& bands = {}, bool flat = false);
 
 /// Whether panels that hide copies of so many pixels may be flat. Seen from the eye a flat panel fills the same bearings as the wall, whose
 /// image bulges towards the eye, and nothing else lies there: only the edge of the floor before it does not end at it, which it hides by
 /// reaching into the floor.
-[[nodiscard]] bool may_be_flat(const place::PlacedRoom& room, double pixels);
+[[nodiscard]] bool may_be_flat(const place::Interior& room, double pixels);
 
 /// Where panels get another colour: what one sees above the height of the eye goes up, what one sees below it goes down. None in a room of
 /// storeys.
-[[nodiscard]] std::vector<double> bands_of(const place::PlacedRoom& room, const place::Eye& eye);
+[[nodiscard]] std::vector<double> bands_of(const place::Interior& room, const place::Camera& eye);
 
 /// How what is seen in a mirror of a copy ends there.
 enum class CutOff : std::uint8_t {
@@ -66,11 +66,11 @@ enum class CutOff : std::uint8_t {
 /// Tells of each mirror of the room how it ends in a copy. Walls that face the eye are never drawn, and may be among them.
 class CutOffs {
  public:
-  CutOffs(const place::PlacedRoom& room, const scene::CoverSpec& spec, LeftOut left_out = {});
+  CutOffs(const place::Interior& room, const scene::CoverSpec& spec, LeftOut left_out = {});
   [[nodiscard]] std::vector<CutOff> of(const cover::Copy& copy) const;
 
  private:
-  const place::PlacedRoom& room_;
+  const place::Interior& room_;
   const scene::CoverSpec& spec_;
   LeftOut left_out_;
   std::vector<geometry::Isometry> behind_;   // by mirror: the reflection in its wall
@@ -86,7 +86,7 @@ std::uint64_t hang(const CutOffs& cut_offs, const std::vector<cover::Copy>& copi
                    std::vector<bend::Model>& models, std::vector<std::uint32_t>& model_of_copy);
 
 /// Gives the room panels for its mirrors, and a look for each of their colours. Makes: which parts they are.
-[[nodiscard]] std::vector<std::size_t> add_curtains(place::PlacedRoom& room, const std::vector<scene::Color>& colors,
+[[nodiscard]] std::vector<std::size_t> add_curtains(place::Interior& room, const std::vector<scene::Color>& colors,
                                                     const std::vector<double>& bands, bool flat);
 
 }  // namespace orbc::driver

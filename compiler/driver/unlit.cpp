@@ -14,7 +14,7 @@ namespace {
 
 // How far it is from the middle of the room to its walls, about. The strip has no inscribed circle: its mirrors lie `scale` away.
 double reach(const Opened& opened) {
-  const room::Room& room = opened.room->room;
+  const room::Room& room = opened.room->polygon;
   const double wide = room.inradius > 0 ? room.inradius : room.orbifold.strip ? opened.scene.room.shape.scale : room.circumradius / 2;
   return wide;
 }
@@ -30,7 +30,7 @@ double rounded(double value) {
 // ρ measures how light spreads in this space, and the images in near walls add to it; but no more than 5 times white just below it.
 // The factors are those for which pictures of rooms of all kinds come out right (measured).
 double power_of(const Opened& opened, double z) {
-  const double spread = geometry::sin_k(opened.room->room.space, reach(opened));
+  const double spread = geometry::sin_k(opened.room->polygon.space, reach(opened));
   const double slant = math::hypot(z, spread), steep = std::min(z / spread, 3.0);
   return std::min(28 * slant * slant * slant / (z * (1 + 1.5 * steep * steep)), 60 * z * z) / opened.scene.exposure;
 }
@@ -38,7 +38,7 @@ double power_of(const Opened& opened, double z) {
 bool hangs_freely(const Opened& opened, const scene::Lamp& lamp) {
   scene::Scene lit;
   lit.orbifold = opened.scene.orbifold, lit.room = opened.scene.room, lit.objects = opened.scene.objects, lit.lamps = {lamp};
-  const auto hung = light::place_lamps(lit, opened.room->room);
+  const auto hung = light::place_lamps(lit, opened.room->polygon);
   return hung.has_value() && hung->warnings.empty() && light::lamps_inside_objects(lit, *hung, *opened.room).empty();
 }
 

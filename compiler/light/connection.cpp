@@ -78,9 +78,9 @@ ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double
       path.complete = true;
       return path;
     }
-    const trace::MirrorArea* mirror = trace::mirror_at(scene, ray, exit.t, exit.surface);
+    const trace::MirrorRect* mirror = trace::mirror_at(scene, ray, exit.t, exit.surface);
     if (!mirror || path.segments > bounces || path.segments == ShadowPath::kMaxSegments) return path;
-    path.throughput = path.throughput * mirror->weight;
+    path.throughput = path.throughput * mirror->throughput;
     if (exit.surface >= 0) path.walls[static_cast<std::size_t>(path.wall_count++)] = static_cast<std::int16_t>(exit.surface);
     length -= exit.t;
     ray = exit.surface >= 0 ? trace::reflected_in_wall(scene.prism, ray, exit.t, exit.surface)
@@ -148,20 +148,20 @@ SurfaceProjection project_to_surface(const LightingContext& lighting, const surf
   SurfaceProjection nearest{point, {}};
   for (const double side : {1.0, -1.0}) {
     // The ray starts a little behind the point, since the surface may pass through it.
-    const Position start = surface::exponential(space, point.at, frame, (-side * trace::kLeave) * normal);
+    const Position start = surface::exponential(space, point.at, frame, (-side * trace::kRayEpsilon) * normal);
     const trace::Ray ray = trace::ray_from(space, start, side * point.geometric_normal);
-    const trace::Hit hit = trace::closest_triangle(lighting.scene, ray, max_distance + trace::kLeave);
-    if (hit.target != trace::Target::triangle || std::fabs(hit.t - trace::kLeave) >= max_distance) continue;
+    const trace::Hit hit = trace::closest_triangle(lighting.scene, ray, max_distance + trace::kRayEpsilon);
+    if (hit.kind != trace::HitKind::triangle || std::fabs(hit.t - trace::kRayEpsilon) >= max_distance) continue;
     const surface::ShadingPoint found = shading_point(lighting, *lighting.shadow_casters, trace::surface_at(lighting.scene, ray, hit), hit);
     if (trace::inner(space, found.normal, point.normal) < 0.7) continue;  // beyond an edge, or the far side of a thin body
-    max_distance = std::fabs(hit.t - trace::kLeave);
+    max_distance = std::fabs(hit.t - trace::kRayEpsilon);
     nearest = {found, hit};
   }
   return nearest;
 }
 
 bool is_enclosed(const LightingContext& lighting, const surface::ShadingPoint& point) {
-  if (lighting.scene.room == nullptr) return false;
+  if (lighting.scene.interior == nullptr) return false;
   const Space space = lighting.scene.prism.space;
   const surface::TangentFrame frame = surface::tangent_frame(space, point.at.floor);
   const geometry::Vector3 n = geometry::normalised(surface::to_local(space, frame, point.geometric_normal)),
@@ -169,17 +169,17 @@ bool is_enclosed(const LightingContext& lighting, const surface::ShadingPoint& p
   const geometry::Vector3 a = geometry::normalised(cross(n, helper)), b = cross(n, a);
   for (const geometry::Vector3& d : {n, n + 0.5 * a + 0.3 * b, n - 0.45 * a + 0.35 * b, n + 0.1 * a - 0.6 * b}) {
     trace::Ray ray = trace::ray_from(space, point.at, surface::to_ambient(frame, geometry::normalised(d)));
-    ray.t_min = std::max(trace::kLeave, kUndersideGap * lighting.scene.room->height);
+    ray.t_min = std::max(trace::kRayEpsilon, kUndersideGap * lighting.scene.interior->height);
     const trace::Hit hit = trace::closest_triangle(lighting.scene, ray);
-    if (hit.target != trace::Target::triangle || trace::surface_at(lighting.scene, ray, hit).outside) return false;
+    if (hit.kind != trace::HitKind::triangle || trace::surface_at(lighting.scene, ray, hit).front_facing) return false;
   }
   return true;
 }
 
 trace::Ray spawn_ray(const LightingContext& lighting, const surface::ShadingPoint& point, const trace::Direction& direction) {
   trace::Ray ray = trace::ray_from(lighting.scene.prism.space, point.ray_origin, direction);
-  ray.leaves_wall = point.wall;
-  ray.t_min = point.on_triangle ? trace::kLeave : 0;
+  ray.start_wall = point.wall;
+  ray.t_min = point.on_triangle ? trace::kRayEpsilon : 0;
   return ray;
 }
 

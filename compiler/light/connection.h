@@ -28,7 +28,7 @@ inline constexpr double kVertexTolerance = 1e-4;
 /// A point of a coarser level of detail, moved onto the surface it stands for.
 struct SurfaceProjection {
   surface::ShadingPoint point;
-  trace::Hit hit;  ///< the triangle of that surface; Target::nothing if no surface was near
+  trace::Hit hit;  ///< the triangle of that surface; HitKind::none if no surface was near
 };
 /// Projects a point onto the nearest surface of the room along its geometric normal, to either side. Coarser levels cut corners of the
 /// surface and would lie in its shadow, with other normals.

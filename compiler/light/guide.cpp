@@ -63,9 +63,9 @@ std::optional<Guide::Lobe> lobe_of(const LightingContext& lighting, const LampIm
 
 }  // namespace
 
-std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::PlacedRoom& room) {
-  const Space space = room.room.space;
-  std::vector<bool> has_mirror(room.room.walls.size(), false);
+std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::Interior& room) {
+  const Space space = room.polygon.space;
+  std::vector<bool> has_mirror(room.polygon.walls.size(), false);
   bool plain_floor = true, plain_ceiling = true;
   for (const place::PlacedMirror& m : room.mirrors) {
     if (m.wall >= 0) has_mirror[static_cast<std::size_t>(m.wall)] = true;
@@ -82,7 +82,7 @@ std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::PlacedR
   if (plain_ceiling) add({lamp.centre.floor, room.height}, true);
   for (std::size_t w = 0; w < has_mirror.size(); ++w) {
     if (has_mirror[w]) continue;
-    const geometry::Point image = room::reflection_in_wall(room.room, static_cast<int>(w)) * lamp.centre.floor;
+    const geometry::Point image = room::reflection_in_wall(room.polygon, static_cast<int>(w)) * lamp.centre.floor;
     if (geometry::distance(space, image, lamp.centre.floor) > kMaxWallSpotDistance) continue;
     add({geometry::midpoint(space, image, lamp.centre.floor), lamp.centre.z}, false);
   }

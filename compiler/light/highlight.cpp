@@ -59,7 +59,7 @@ struct SpecularLobe {
     const double cos_light_half = size / 2, half_spread = spread / (2 * std::max(cos_light_half, 0.1));
     const double cos_half = size < 1e-9 ? 1 : std::min(1.0, trace::inner(space, point.normal, (1 / size) * sum));
     const double angle = std::max(0.0, math::acos(std::max(-1.0, cos_half)) - half_spread);
-    return largest(surface::fresnel_schlick(f0, cos_light_half - spread)) * d_times_g1(angle > 1.5 ? 0 : math::cos(angle), widening);
+    return max_channel(surface::fresnel_schlick(f0, cos_light_half - spread)) * d_times_g1(angle > 1.5 ? 0 : math::cos(angle), widening);
   }
 };
 
@@ -77,7 +77,7 @@ Color visible_highlight(const LightingContext& lighting, const LampImage& image,
   Color total;
   for (const LampSample& sample : samples) total = total + sample.unoccluded;
   const int all = static_cast<int>(samples.size()),
-            rays = std::clamp(static_cast<int>(std::ceil(power * largest(total) / count / kMaxShadowStep)), 1, all);
+            rays = std::clamp(static_cast<int>(std::ceil(power * max_channel(total) / count / kMaxShadowStep)), 1, all);
   Color sum, throughput;
   double weights = 0;
   bool agree = true;
@@ -88,8 +88,8 @@ Color visible_highlight(const LightingContext& lighting, const LampImage& image,
       agree = agree && (k == 0 || arriving == throughput);
       throughput = arriving;
     }
-    sum = sum + largest(sample.unoccluded) * throughput;
-    weights += largest(sample.unoccluded);
+    sum = sum + max_channel(sample.unoccluded) * throughput;
+    weights += max_channel(sample.unoccluded);
   }
   return (1 / weights) * (total * sum);
 }
@@ -97,7 +97,7 @@ Color visible_highlight(const LightingContext& lighting, const LampImage& image,
 /// The highlight of one image of a lamp.
 Color image_highlight(const LightingContext& lighting, const LampImage& image, const SpecularLobe& lobe) {
   const PlacedLamp& lamp = lamp_of_image(lighting, image);
-  const double power = largest(lamp.power) * lighting.exposure;
+  const double power = max_channel(lamp.power) * lighting.exposure;
   const Connection centre = connect(lobe.space, lobe.point.ray_origin, image.samples[0], image.sheet);
   const double angular_size = centre.length > 1e-9 ? lamp.extent / centre.length : 4, radius = angular_size / 2;
   int count = std::clamp(static_cast<int>(image.samples.size()) - 1, 1, kMaxLampSamples);
@@ -117,9 +117,9 @@ Color image_highlight(const LightingContext& lighting, const LampImage& image, c
     const Connection connection = connect(lobe.space, lobe.point.ray_origin, image.samples[sample], image.sheet);
     if (!connection.valid) continue;
     const Color reflected = lobe.reflected(connection.direction, widening(count));
-    if (largest(reflected) <= 0) continue;
+    if (max_channel(reflected) <= 0) continue;
     const Color unoccluded = unoccluded_irradiance(lighting, image, sample, lobe.point, connection) * reflected;
-    if (power * largest(unoccluded) >= kMinHighlight / 2) samples.push_back({connection, sample, unoccluded});
+    if (power * max_channel(unoccluded) >= kMinHighlight / 2) samples.push_back({connection, sample, unoccluded});
   }
   if (samples.empty()) return {};
   return (1.0 / count) * (lamp.power * visible_highlight(lighting, image, lobe, samples, power, count));

@@ -46,9 +46,9 @@ struct MirroredSurfaces {
   double max_throughput = 0;  ///< largest channel of any mirror
 };
 
-MirroredSurfaces mirrored_surfaces(const place::PlacedRoom& room) {
+MirroredSurfaces mirrored_surfaces(const place::Interior& room) {
   MirroredSurfaces mirrors;
-  mirrors.walls.assign(room.room.walls.size(), false);
+  mirrors.walls.assign(room.polygon.walls.size(), false);
   for (const place::PlacedMirror& m : room.mirrors) {
     if (m.wall >= 0) mirrors.walls[static_cast<std::size_t>(m.wall)] = true;
     else (m.wall == -1 ? mirrors.floor : mirrors.ceiling) = true;
@@ -61,19 +61,19 @@ MirroredSurfaces mirrored_surfaces(const place::PlacedRoom& room) {
 using Visitor = std::function<bool(const HorizontalImage&)>;
 
 // Orbifolds: every element of the group once.
-void visit_group(const place::PlacedRoom& room, const MirroredSurfaces& mirrors, int bounces, const Visitor& visit) {
+void visit_group(const place::Interior& room, const MirroredSurfaces& mirrors, int bounces, const Visitor& visit) {
   std::vector<int> wall;
-  for (std::size_t i = 0; i < room.room.walls.size(); ++i)
-    if (room.room.walls[i].reflects) wall.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < room.polygon.walls.size(); ++i)
+    if (room.polygon.walls[i].reflects) wall.push_back(static_cast<int>(i));
   std::vector<Isometry> reflections;
   bool all_mirrors = true;
   for (const int w : wall) {
-    reflections.push_back(room::reflection_in_wall(room.room, w));
+    reflections.push_back(room::reflection_in_wall(room.polygon, w));
     all_mirrors = all_mirrors && mirrors.walls[static_cast<std::size_t>(w)];
   }
-  const bool closed = room.room.space == Space::spherical && all_mirrors;  // geodesics go on round the sphere
-  const int half_turn = closed ? notation::longest_length(room.room.orbifold).value() : 0;
-  const cover::Automaton automaton(room.room.orbifold, std::max(1, bounces));
+  const bool closed = room.polygon.space == Space::spherical && all_mirrors;  // geodesics go on round the sphere
+  const int half_turn = closed ? notation::longest_length(room.polygon.orbifold).value() : 0;
+  const cover::Automaton automaton(room.polygon.orbifold, std::max(1, bounces));
   cover::enumerate(automaton, reflections, bounces, [&](const cover::Element& element, const Isometry& cover_from_room) {
     const int length = static_cast<int>(element.word.size());
     if (length > 0 && !mirrors.walls[static_cast<std::size_t>(wall[element.word.back()])]) return cover::Visit::prune;
@@ -87,14 +87,14 @@ void visit_group(const place::PlacedRoom& room, const MirroredSurfaces& mirrors,
 }
 
 // Other rooms: every word of mirrors without the same letter twice in a row, from `at` on. Makes: false when `visit` has stopped.
-bool visit_words(const place::PlacedRoom& room, const MirroredSurfaces& mirrors, int bounces, const HorizontalImage& at,
+bool visit_words(const place::Interior& room, const MirroredSurfaces& mirrors, int bounces, const HorizontalImage& at,
                  const Visitor& visit) {
   if (!visit(at)) return false;
   if (at.bounces == bounces) return true;
   for (std::size_t w = 0; w < mirrors.walls.size(); ++w) {
     if (!mirrors.walls[w] || (!at.walls.empty() && at.walls.back() == static_cast<std::int16_t>(w))) continue;
     HorizontalImage next = at;
-    next.cover_from_room = geometry::renormalised(next.cover_from_room * room::reflection_in_wall(room.room, static_cast<int>(w)));
+    next.cover_from_room = geometry::renormalised(next.cover_from_room * room::reflection_in_wall(room.polygon, static_cast<int>(w)));
     next.walls.push_back(static_cast<std::int16_t>(w));
     ++next.bounces;
     if (!visit_words(room, mirrors, bounces, next, visit)) return false;
@@ -134,7 +134,7 @@ Position image_of(const HorizontalImage& horizontal, const VerticalImage& vertic
 /// A room with all that the images of its lamps depend on.
 struct ImageContext {
   const std::vector<PlacedLamp>& lamps;
-  const place::PlacedRoom& room;
+  const place::Interior& room;
   const ImageOptions& options;
   MirroredSurfaces mirrors;
 };
@@ -145,10 +145,10 @@ double max_throughput(const ImageContext& context, const HorizontalImage& horizo
 
 // Whether some point of the room may get light of `cull_below`. On S² light rises again with distance, and images are few.
 bool may_be_visible(const ImageContext& context, const PlacedLamp& lamp, const HorizontalImage& horizontal, const VerticalImage& vertical) {
-  const Space space = context.room.room.space;
+  const Space space = context.room.polygon.space;
   if (context.options.cull_below <= 0 || space == Space::spherical) return true;
   const Position centre = image_of(horizontal, vertical, lamp.centre);
-  const double arc = std::max(0.0, geometry::distance(space, {}, centre.floor) - context.room.room.circumradius);
+  const double arc = std::max(0.0, geometry::distance(space, {}, centre.floor) - context.room.polygon.circumradius);
   const double rise = std::max({0.0, -centre.z, centre.z - context.room.height});
   return max_contribution(space, lamp, max_throughput(context, horizontal, vertical), context.options.exposure, math::hypot(arc, rise),
                           arc) >= context.options.cull_below;
@@ -186,8 +186,8 @@ std::optional<std::vector<LampImage>> images_up_to(const ImageContext& context, 
       }
     return true;
   };
-  if (notation::is_orbifold(context.room.room.orbifold)) visit_group(context.room, context.mirrors, bounces, visit);
-  else visit_words(context.room, context.mirrors, bounces, {geometry::identity(context.room.room.space), 0, 0, {}, true}, visit);
+  if (notation::is_orbifold(context.room.polygon.orbifold)) visit_group(context.room, context.mirrors, bounces, visit);
+  else visit_words(context.room, context.mirrors, bounces, {geometry::identity(context.room.polygon.space), 0, 0, {}, true}, visit);
   if (!complete || images.size() > kMaxImages) return std::nullopt;
   return images;
 }
@@ -195,11 +195,11 @@ std::optional<std::vector<LampImage>> images_up_to(const ImageContext& context, 
 }  // namespace
 
 double max_contribution(Space space, const PlacedLamp& lamp, double throughput, double exposure, double length, double arc) {
-  return largest(lamp.power) / std::numbers::pi * exposure * throughput * lamp.peak_intensity *
+  return max_channel(lamp.power) / std::numbers::pi * exposure * throughput * lamp.peak_intensity *
          falloff(lamp.falloff, space, std::max(length - lamp.extent, lamp.radius), arc, lamp.radius);
 }
 
-Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::PlacedRoom& room,
+Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::Interior& room,
                                            const ImageOptions& options) {
   const ImageContext context{lamps, room, options, mirrored_surfaces(room)};
   if (auto images = images_up_to(context, options.bounces)) return std::move(*images);

@@ -21,24 +21,24 @@ trace::FollowOptions path_follow_options(const LightingContext& lighting) {
   return follow;
 }
 
-LightPath extend_path(const place::PlacedRoom& room, const LightingContext& lighting, LightPath path, const trace::Ray& ray,
+LightPath extend_path(const place::Interior& room, const LightingContext& lighting, LightPath path, const trace::Ray& ray,
                       surface::Random& random) {
   return extend_path(room, lighting, std::move(path), trace::follow(lighting.scene, ray, path_follow_options(lighting)), random);
 }
 
-LightPath extend_path(const place::PlacedRoom& room, const LightingContext& lighting, LightPath path, trace::Path followed,
+LightPath extend_path(const place::Interior& room, const LightingContext& lighting, LightPath path, trace::Path followed,
                       surface::Random& random) {
   const geometry::Space space = lighting.scene.prism.space;
   path.end.reset();
   for (int objects = 0; objects <= kMaxSpecularObjects; ++objects) {
-    path.radiance = path.radiance + path.throughput * followed.glow;
-    if (followed.cut_off || followed.hit.target == trace::Target::nothing) {
+    path.radiance = path.radiance + path.throughput * followed.emission;
+    if (followed.cut_off || followed.hit.kind == trace::HitKind::none) {
       path.radiance = path.radiance + path.throughput * lighting.options.background;
       return path;
     }
-    path.throughput = path.throughput * followed.weight;
-    trace::SurfacePoint point = trace::surface_at(lighting.scene, followed.last, followed.hit);
-    const scene::Material* material = point.look >= 0 ? &room.looks[static_cast<std::size_t>(point.look)].material : nullptr;
+    path.throughput = path.throughput * followed.throughput;
+    trace::SurfacePoint point = trace::surface_at(lighting.scene, followed.last_ray, followed.hit);
+    const scene::Material* material = point.style >= 0 ? &room.styles[static_cast<std::size_t>(point.style)].material : nullptr;
     if (material && material->kind == scene::MaterialKind::emissive) {
       path.radiance = path.radiance + material->emission * (path.throughput * surface::hit_albedo(room, point));
       return path;
@@ -52,13 +52,13 @@ LightPath extend_path(const place::PlacedRoom& room, const LightingContext& ligh
     if (mirror) {
       path.throughput = path.throughput * surface::hit_albedo(room, point);
     } else if (const surface::Refraction glass = surface::refract(space, point, material->index); random.next() >= glass.reflectance) {
-      if (point.outside) path.throughput = path.throughput * surface::hit_albedo(room, point);
+      if (point.front_facing) path.throughput = path.throughput * surface::hit_albedo(room, point);
       point.normal = -point.normal;
       onward = glass.direction;
     }
     trace::FollowOptions follow = path_follow_options(lighting);
     follow.bounces = followed.bounces;
-    followed = trace::follow(lighting.scene, trace::leave(lighting.scene, point, onward), follow);
+    followed = trace::follow(lighting.scene, trace::spawn_ray(lighting.scene, point, onward), follow);
   }
   return path;
 }

@@ -10,7 +10,7 @@
 #include "compiler/light/connection.h"
 #include "compiler/light/falloff.h"
 #include "compiler/light/guide.h"
-#include "compiler/place/texel.h"
+#include "compiler/place/alpha_mask.h"
 #include "compiler/surface/sampling.h"
 
 namespace orbc::light {
@@ -33,7 +33,7 @@ double importance(const LightingContext& lighting, const LampImage& image, const
   const double max_tilt = 2 * lamp.extent / std::max(centre.length, 1e-9);
   const double cosine = centre.valid ? trace::inner(space, centre.direction, point.normal) + max_tilt : 1;
   if (cosine <= 0 && max_tilt < 1) return 0;
-  return largest(lamp.power) * image.max_throughput * std::clamp(cosine, 0.05, 1.0) *
+  return max_channel(lamp.power) * image.max_throughput * std::clamp(cosine, 0.05, 1.0) *
          falloff(lamp.falloff, space, std::max(centre.length, lamp.radius), centre.arc, lamp.radius);
 }
 
@@ -114,19 +114,19 @@ Color image_irradiance(const LightingContext& lighting, std::uint32_t number, co
   return (budget.weight / budget.count) * (lamp.power * sum);
 }
 
-Result<LampSet> with_images(const scene::Scene& scene, const place::PlacedRoom& room, PlacedLamps placed, const LightOptions& options) {
+Result<LampSet> with_images(const scene::Scene& scene, const place::Interior& room, PlacedLamps placed, const LightOptions& options) {
   LampSet set{std::move(placed.lamps), {}, std::move(placed.warnings)};
   for (PlacedLamp& lamp : set.lamps) lamp.hot_spots = find_hot_spots(lamp, room);
   auto images = lamp_images(set.lamps, room, {options.bounces, scene.exposure, options.cull_below});
-  if (!images) return located(images.error(), scene.bake.mirrors_span);
+  if (!images) return located(images.error(), scene.bake.mirror_bounces_span);
   set.images = std::move(images).value();
   return set;
 }
 
 /// The room without the bodies of its lamps.
-std::shared_ptr<const place::PlacedRoom> make_shadow_casters(const place::PlacedRoom& room) {
-  auto casters = std::make_shared<place::PlacedRoom>(room);
-  if (!place::has_holes(room)) casters->textures.clear();
+std::shared_ptr<const place::Interior> make_shadow_casters(const place::Interior& room) {
+  auto casters = std::make_shared<place::Interior>(room);
+  if (!place::has_alpha_mask(room)) casters->textures.clear();
   casters->parts.erase(
       std::remove_if(casters->parts.begin(), casters->parts.end(), [](const place::PlacedMesh& part) { return lamp_of_part(part) >= 0; }),
       casters->parts.end());
@@ -137,8 +137,8 @@ std::shared_ptr<const place::PlacedRoom> make_shadow_casters(const place::Placed
 
 LightOptions light_options(const scene::Scene& scene) {
   LightOptions options;
-  options.bounces = scene.bake.mirrors;
-  if (scene.integrator == scene::Integrator::path) options.indirect_bounces = scene.bake.bounces;
+  options.bounces = scene.bake.mirror_bounces;
+  if (scene.integrator == scene::Integrator::path) options.indirect_bounces = scene.bake.indirect_bounces;
   options.path_bounces = scene.cover.max_bounces;
   options.path_min_weight = scene.cover.min_weight;
   options.background = (1 / std::max(scene.exposure, 1e-300)) * scene.cover.background;
@@ -146,14 +146,14 @@ LightOptions light_options(const scene::Scene& scene) {
   return options;
 }
 
-Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options) {
-  auto placed = place_lamps(scene, room.room);
+Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::Interior& room, const LightOptions& options) {
+  auto placed = place_lamps(scene, room.polygon);
   if (!placed) return placed.error();
   if (auto inside = lamps_inside_objects(scene, *placed, room); !inside.empty()) return inside;
   return with_images(scene, room, std::move(*placed), options);
 }
 
-LightingContext prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, std::shared_ptr<const LampSet> lamps,
+LightingContext prepare_light(const scene::Scene& scene, const place::Interior& room, std::shared_ptr<const LampSet> lamps,
                               const LightOptions& options, const Executor& executor) {
   LightingContext lighting;
   lighting.lit = !scene.lamps.empty() || options.indirect_bounces > 0;
@@ -173,9 +173,9 @@ LightingContext prepare_light(const scene::Scene& scene, const place::PlacedRoom
   return lighting;
 }
 
-Result<LightingContext> prepare_light(const scene::Scene& scene, const place::PlacedRoom& room, const LightOptions& options,
+Result<LightingContext> prepare_light(const scene::Scene& scene, const place::Interior& room, const LightOptions& options,
                                       const Executor& executor) {
-  auto placed = place_lamps(scene, room.room);
+  auto placed = place_lamps(scene, room.polygon);
   if (!placed) return placed.error();
   auto lamps = with_images(scene, room, std::move(*placed), options);
   if (!lamps) return lamps.error();
@@ -250,9 +250,9 @@ Color outgoing_radiance(const LightingContext& lighting, const scene::Material& 
 
 double white_level(const LightingContext& lighting) { return 1 / std::max(lighting.exposure, 1e-300); }
 
-surface::ShadingPoint shading_point(const LightingContext& lighting, const place::PlacedRoom& room, const trace::SurfacePoint& point,
+surface::ShadingPoint shading_point(const LightingContext& lighting, const place::Interior& room, const trace::SurfacePoint& point,
                                     const trace::Hit& hit) {
-  if (hit.target == trace::Target::triangle) {
+  if (hit.kind == trace::HitKind::triangle) {
     const auto part = static_cast<std::size_t>(hit.part);
     return surface::shading_point(room, room.parts[part], lighting.normals[part], static_cast<std::size_t>(hit.triangle),
                                   {hit.b[0], hit.b[1], hit.b[2]});

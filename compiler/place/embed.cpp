@@ -1,5 +1,5 @@
-// Paper, "Object Embedding and Movement": an object's horizontal coordinates are read as coordinates of the stereographic or Poincaré disk.
-// There lengths at the origin count double, hence (x + iy)/2.
+// Paper, "Object Embedding and Movement": an object's horizontal coordinates become coordinates of the stereographic or Poincaré disk.
+// Lengths at the disk's origin count double, hence (x + iy)/2.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include "compiler/mesh/analyse.h"
 #include "compiler/mesh/refine.h"
 #include "compiler/place/locate.h"
-#include "compiler/place/place.h"
+#include "compiler/place/embed.h"
 
 namespace orbc::place {
 namespace {
@@ -30,7 +30,7 @@ Point embedded(Space space, scene::Embedding embedding, const Vector3& p) {
   return geometry::point_from_disk(space, (space == Space::euclidean ? 1.0 : 0.5) * std::complex<double>(p.x, p.y));
 }
 
-// Whether the embedding is defined and one-to-one out to p.
+// Whether the embedding is defined and injective on the disk up to p.
 bool in_chart(Space space, scene::Embedding embedding, const Vector3& p) {
   const double r = math::hypot(p.x, p.y);
   if (!(r < 1e15) || !(std::fabs(p.z) < 1e15)) return false;
@@ -45,7 +45,8 @@ double embedded_length(Space space, scene::Embedding embedding, double low, doub
   return 2 * (geometry::atan_k(space, high / 2) - geometry::atan_k(space, low / 2));
 }
 
-Vector3 standing(const Vector3& p, scene::Axis up) {
+// Rotates p so that the axis `up` becomes z.
+Vector3 z_up(const Vector3& p, scene::Axis up) {
   switch (up) {
     case scene::Axis::plus_x:
       return {-p.z, p.y, p.x};
@@ -62,12 +63,12 @@ Vector3 standing(const Vector3& p, scene::Axis up) {
   }
 }
 
-// A turn in a plane; quarter turns are exact, so that a box stays a box.
-struct PlaneTurn {
+// Cosine and sine of a rotation in a plane; exact for quarter turns, so that a box stays a box.
+struct PlaneRotation {
   double c = 1, s = 0;
 };
 
-PlaneTurn plane_turn(const Angle& angle) {
+PlaneRotation plane_rotation(const Angle& angle) {
   const double quarters = angle.radians / (std::numbers::pi / 2), whole = std::round(quarters);
   if (std::fabs(quarters - whole) > 1e-15 * std::fmax(1, std::fabs(quarters))) return {math::cos(angle.radians), math::sin(angle.radians)};
   constexpr double kCos[] = {1, 0, -1, 0}, kSin[] = {0, 1, 0, -1};
@@ -75,25 +76,25 @@ PlaneTurn plane_turn(const Angle& angle) {
   return {kCos[k], kSin[k]};
 }
 
-/// What is done to a mesh before it is centred and stands: `up`, then `scale`, then `rotate`.
+/// The linear map of a mesh before it is centred: `up`, then `scale`, then `rotate`.
 class Pose {
  public:
   explicit Pose(const scene::Object& object)
       : up_(object.up),
         scale_(object.scale),
-        about_{plane_turn(object.rotate[0]), plane_turn(object.rotate[1]), plane_turn(object.rotate[2])} {}
+        about_{plane_rotation(object.rotate[0]), plane_rotation(object.rotate[1]), plane_rotation(object.rotate[2])} {}
 
   [[nodiscard]] bool is_scaled() const { return scale_ != std::array<double, 3>{1, 1, 1}; }
   [[nodiscard]] bool is_mirrored() const { return scale_[0] * scale_[1] * scale_[2] < 0; }
   [[nodiscard]] Vector3 operator()(const Vector3& own) const {
-    Vector3 p = standing(own, up_);
+    Vector3 p = z_up(own, up_);
     p = {scale_[0] * p.x, scale_[1] * p.y, scale_[2] * p.z};
     const auto& [x, y, z] = about_;
     p = {p.x, x.c * p.y - x.s * p.z, x.s * p.y + x.c * p.z};
     p = {y.c * p.x + y.s * p.z, p.y, y.c * p.z - y.s * p.x};
     return {z.c * p.x - z.s * p.y, z.s * p.x + z.c * p.y, p.z};
   }
-  /// Takes `rotate` back: solid patterns turn with the object.
+  /// The inverse of `rotate`; solid patterns rotate with the object.
   [[nodiscard]] Vector3 unrotated(Vector3 p) const {
     const auto& [x, y, z] = about_;
     p = {z.c * p.x + z.s * p.y, z.c * p.y - z.s * p.x, p.z};
@@ -104,10 +105,10 @@ class Pose {
  private:
   scene::Axis up_;
   std::array<double, 3> scale_;
-  std::array<PlaneTurn, 3> about_;
+  std::array<PlaneRotation, 3> about_;
 };
 
-// The mesh's centroid where its pose puts it. The centroid of a surface does not follow where lengths change unevenly.
+// The centroid of the posed mesh. Uneven scaling does not preserve the centroid of a surface, which is then computed anew.
 Vector3 posed_centroid(const mesh::Mesh& mesh, const Pose& pose) {
   mesh::AnalyseOptions quickly;
   quickly.crossings = false;
@@ -121,12 +122,13 @@ Vector3 posed_centroid(const mesh::Mesh& mesh, const Pose& pose) {
 // ---- refining ---------------------------------------------------------------------------------------------------------------
 
 bool is_too_long(Space space, scene::Embedding embedding, const Vector3& p, const Vector3& q, double tolerance) {
-  const double reach2 = std::fmax(p.x * p.x + p.y * p.y, q.x * q.x + q.y * q.y), dx = p.x - q.x, dy = p.y - q.y;
-  // Near the axis the error is below |z|·l²/8 with |z| ≤ reach/2 in the disk; eight times that settles nearly all edges of a fine mesh.
-  if (reach2 < 0.25 && 0.25 * reach2 * (dx * dx + dy * dy) * (dx * dx + dy * dy) <= tolerance * tolerance) return false;
+  const double r2 = std::fmax(p.x * p.x + p.y * p.y, q.x * q.x + q.y * q.y), dx = p.x - q.x, dy = p.y - q.y;
+  // Near the axis the error is below |z|·l²/8 with |z| ≤ r/2 in the disk. A test with eight times that decides nearly all edges of a fine
+  // mesh.
+  if (r2 < 0.25 && 0.25 * r2 * (dx * dx + dy * dy) * (dx * dx + dy * dy) <= tolerance * tolerance) return false;
   const Point from = embedded(space, embedding, p), to = embedded(space, embedding, q);
-  // Not the middle alone: an edge through the axis has no error there, and an edge that is never split while its neighbours are breeds
-  // slivers without end.
+  // Not at the middle alone: an edge through the axis has no error there, and an edge that is never split while its neighbours are makes
+  // endless slivers.
   for (const double t : {0.25, 0.5, 0.75}) {
     const Point chord = geometry::normalised_point(space, (1 - t) * from + t * to);
     if (geometry::distance(space, chord, embedded(space, embedding, (1 - t) * p + t * q)) > tolerance) return true;
@@ -136,7 +138,7 @@ bool is_too_long(Space space, scene::Embedding embedding, const Vector3& p, cons
 
 // ---- containment ------------------------------------------------------------------------------------------------------------
 
-// Far enough inside that the stored lines and the stored outline cannot disagree: a filter before the exact predicate.
+// Whether X is so far inside that the stored lines and the stored outline agree. A filter before the exact predicate.
 bool is_clearly_inside(const room::Room& room, const Point& x) {
   for (const room::Wall& wall : room.walls) {
     const geometry::Line& l = wall.line;
@@ -146,33 +148,33 @@ bool is_clearly_inside(const room::Room& room, const Point& x) {
   return true;
 }
 
-struct Fit {
+struct ScaledOverhang {
   Overhang wall{0, 0};
-  double above = 0;              // the ceiling
-  [[nodiscard]] bool inside() const { return wall.distance <= 0 && above <= 0; }
+  double above_ceiling = 0;
+  [[nodiscard]] bool inside() const { return wall.distance <= 0 && above_ceiling <= 0; }
 };
 
-// How an object scaled by `factor` about the foot of its axis would stand; measured, for hints.
-Fit fit(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at, double z,
-        double factor, std::size_t stride) {
+// The overhang of an object scaled by `factor` about the foot of its axis; measured, for hints.
+ScaledOverhang overhang_at_scale(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height,
+                                 const Point& at, double z, double factor, std::size_t stride) {
   const geometry::Isometry room_from_object =
       geometry::translation_to(room.space, at) * geometry::rotation(room.space, object.turn.radians);
-  Fit worst;
+  ScaledOverhang worst;
   for (std::size_t i = 0; i < flat.positions.size(); i += stride) {
     const Vector3 p = factor * flat.positions[i];
     if (!in_chart(room.space, object.embedding, p)) return {{0, 1e9}, 0};
     const Overhang over = overhang(room, room_from_object * embedded(room.space, object.embedding, p));
     if (over.distance > worst.wall.distance) worst.wall = over;
-    worst.above = std::fmax(worst.above, z + p.z - height);
+    worst.above_ceiling = std::fmax(worst.above_ceiling, z + p.z - height);
   }
   return worst;
 }
 
-std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at,
+std::string fitting_size_hint(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at,
                          double z) {
   const std::size_t stride = flat.positions.size() / 20000 + 1;
   const auto fits = [&](const Point& place, double level, double factor) {
-    return fit(flat, object, room, height, place, level, factor, stride).inside();
+    return overhang_at_scale(flat, object, room, height, place, level, factor, stride).inside();
   };
   const auto largest = [&](const Point& place, double level) {
     double low = 0, high = 1;
@@ -181,11 +183,13 @@ std::string fitting_hint(const mesh::Mesh& flat, const scene::Object& object, co
   };
   double low[2] = {0, 0}, high[2] = {0, 0};
   for (const Vector3& p : flat.positions) {
-    low[0] = std::fmin(low[0], p.x), high[0] = std::fmax(high[0], p.x);
-    low[1] = std::fmin(low[1], p.y), high[1] = std::fmax(high[1], p.y);
+    low[0] = std::fmin(low[0], p.x);
+    low[1] = std::fmin(low[1], p.y);
+    high[0] = std::fmax(high[0], p.x);
+    high[1] = std::fmax(high[1], p.y);
   }
   const int axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
-  // A little less than what fits, in three digits.
+  // A little less than the largest size that fits, in three digits.
   const auto size = [&](double factor) {
     const double true_size = embedded_length(room.space, object.embedding, factor * low[axis], factor * high[axis]),
                  digits = math::pow(10, 2 - std::floor(math::log10(true_size)));
@@ -213,14 +217,14 @@ std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh&
   const std::string where = outside && worst.distance >= above ? fmt::format("{} beyond wall {}", to_text(worst.distance), worst.wall + 1)
                                                                : fmt::format("{} above the ceiling", to_text(above));
   return make_error("place.object-outside-room", fmt::format("{} reaches {}", object.name.empty() ? "this object" : object.name, where),
-                    fitting_hint(flat, object, room, height, at, z),
+                    fitting_size_hint(flat, object, room, height, at, z),
                     object.size_span.source    ? object.size_span
                     : object.place.span.source ? object.place.span
                                                : object.span);
 }
 
-// The object between file and room: posed, centred, scaled to its size, standing on z = 0, not yet turned; still flat.
-Result<mesh::Mesh> flatten(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room) {
+// Steps 1 to 5 of place_object: the mesh in Euclidean coordinates, its lowest point at z = 0.
+Result<mesh::Mesh> normalised_mesh(const mesh::Mesh& mesh, const scene::Object& object, const room::Room& room) {
   const Pose pose(object);
   mesh::Mesh flat;
   flat.uv = mesh.uv;
@@ -271,7 +275,7 @@ Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& obj
                                 const EmbedOptions& options) {
   Result<geometry::Position> at = locate(object.place, room, height, 0);
   if (!at) return located(std::move(at).error(), object.span);
-  Result<mesh::Mesh> made = flatten(mesh, object, room);
+  Result<mesh::Mesh> made = normalised_mesh(mesh, object, room);
   if (!made) return located(std::move(made).error(), object.span);
   if (room.space != Space::euclidean) {
     made = mesh::refine(
@@ -284,14 +288,14 @@ Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& obj
   placed.name = object.name;
   placed.uv = std::move(flat.uv);
   placed.triangles = std::move(flat.triangles);
-  placed.look.assign(flat.triangle_material.begin(), flat.triangle_material.end());
-  placed.look.resize(placed.triangles.size(), 0);
+  placed.style.assign(flat.triangle_material.begin(), flat.triangle_material.end());
+  placed.style.resize(placed.triangles.size(), 0);
   const geometry::Isometry room_from_object =
       geometry::translation_to(room.space, at->floor) * geometry::rotation(room.space, object.turn.radians);
   for (const Vector3& p : flat.positions) {
     const Point x = room_from_object * embedded(room.space, object.embedding, p);
-    placed.floor.push_back(is_clearly_inside(room, x) ? x : rounded_into(room, x));
-    // A body as high as the room touches the ceiling, whatever the last bit says.
+    placed.floor.push_back(is_clearly_inside(room, x) ? x : snap_into_room(room, x));
+    // A body as high as the room touches the ceiling exactly, whatever the last bit of the sum is.
     const double z = at->z + p.z;
     placed.z.push_back(z > height && z < height * (1 + 1e-14) ? height : z);
   }

@@ -12,11 +12,11 @@
 #include "compiler/image/image.h"
 #include "compiler/mesh/analyse.h"
 #include "compiler/mesh/primitives.h"
-#include "compiler/place/beams.h"
+#include "compiler/place/bars.h"
 #include "compiler/place/locate.h"
-#include "compiler/place/seams.h"
-#include "compiler/place/texel.h"
-#include "compiler/place/wrap.h"
+#include "compiler/place/stitch.h"
+#include "compiler/place/alpha_mask.h"
+#include "compiler/place/uv_repeats.h"
 
 namespace orbc::place {
 namespace {
@@ -24,12 +24,13 @@ namespace {
 using scene::Material;
 using scene::Pattern;
 
-/// Of a mask: its alpha, if it has any, else its brightness (Rec. 709 weights on the codes).
+/// The opacity of an opacity mask: its alpha if it has any, else its brightness (Rec. 709 weights on the encoded values).
 std::uint8_t opacity_at(const image::Image& mask, bool by_alpha, double u, double v) {
   const std::uint8_t* p = texel(mask, u, v);
   return by_alpha ? p[3] : static_cast<std::uint8_t>((2126 * p[0] + 7152 * p[1] + 722 * p[2] + 5000) / 10000);
 }
 
+/// An image with the colours of one image (or white) and the opacity of another, at the finer resolution of the two.
 image::Image masked(const image::Image* colors, const image::Image& mask) {
   bool by_alpha = false;
   for (std::size_t i = 3; i < mask.rgba.size(); i += 4) by_alpha = by_alpha || mask.rgba[i] < 255;
@@ -45,17 +46,17 @@ image::Image masked(const image::Image* colors, const image::Image& mask) {
   return made;
 }
 
-/// The room under construction: errors and warnings are collected, so that an author sees all at once.
+/// The interior under construction. Errors and warnings are collected, so that an author sees all of them at once.
 struct Builder {
   const scene::Scene& scene;
   const room::Room& room;
   const mesh::AssetSource& assets;
   const FurnishOptions& options;
-  PlacedRoom placed;
+  Interior interior;
   Diagnostics errors, warnings;
   std::map<std::string, int> texture_of_path;
-  std::map<std::string, mesh::Mesh> mesh_of_path;  ///< by `same_path`
-  std::set<std::string> told;                      ///< warnings that hold for many objects alike, by what they hold for
+  std::map<std::string, mesh::Mesh> mesh_of_path;  ///< by `normal_path`
+  std::set<std::string> warned;                     ///< keys of warnings that are given once for many objects
 
   void fail(Diagnostics diagnostics, const SourceSpan& span) {
     for (Diagnostic& d : located(std::move(diagnostics), span)) errors.push_back(std::move(d));
@@ -65,30 +66,30 @@ struct Builder {
     return scene.folder.empty() || (!written.empty() && written[0] == '/') ? written : scene.folder + "/" + written;
   }
 
-  // However a file's path is written, it is one file.
-  [[nodiscard]] std::string same_path(const std::string& written) const {
+  // Different spellings of a file's path give the same result.
+  [[nodiscard]] std::string normal_path(const std::string& written) const {
     return std::filesystem::path(path_of(written)).lexically_normal().string();
   }
 
   void warn_once(const std::string& of, Diagnostic warning) {
-    if (told.insert(warning.code + "\n" + of).second) warnings.push_back(std::move(warning));
+    if (warned.insert(warning.code + "\n" + of).second) warnings.push_back(std::move(warning));
   }
 
-  int texture(const scene::Sourced<std::string>& written) {
+  int texture(const scene::Located<std::string>& written) {
     const auto known = texture_of_path.find(written.value);
     if (known != texture_of_path.end()) return known->second;
     Result<image::Image> image = assets.load_image(path_of(written.value));
     int index = -1;
     if (image) {
-      index = static_cast<int>(placed.textures.size());
-      placed.textures.push_back(*std::move(image));
+      index = static_cast<int>(interior.textures.size());
+      interior.textures.push_back(*std::move(image));
     } else {
       fail(std::move(image).error(), written.span);
     }
     return texture_of_path[written.value] = index;
   }
 
-  // A picture whose alpha is the mask: the texture's colours, or white, at the finer resolution of the two.
+  // The index of the texture with the material's opacity mask as alpha.
   int masked_texture(const Material& material) {
     const std::string name = (material.pattern == Pattern::texture ? material.texture.value : "") + "\n" + material.opacity_mask.value;
     const auto known = texture_of_path.find(name);
@@ -96,42 +97,45 @@ struct Builder {
     const int colors = material.pattern == Pattern::texture ? texture(material.texture) : -1, holes = texture(material.opacity_mask);
     int index = -1;
     if (holes >= 0) {
-      const image::Image* under = colors >= 0 ? &placed.textures[static_cast<std::size_t>(colors)] : nullptr;
-      image::Image made = masked(under, placed.textures[static_cast<std::size_t>(holes)]);
-      index = static_cast<int>(placed.textures.size());
-      placed.textures.push_back(std::move(made));
+      const image::Image* under = colors >= 0 ? &interior.textures[static_cast<std::size_t>(colors)] : nullptr;
+      image::Image made = masked(under, interior.textures[static_cast<std::size_t>(holes)]);
+      index = static_cast<int>(interior.textures.size());
+      interior.textures.push_back(std::move(made));
     }
     return texture_of_path[name] = index;
   }
 
-  std::uint16_t add(const Look& look) {
-    if (placed.looks.size() == 0xffff)
+  std::uint16_t add(const SurfaceStyle& style) {
+    if (interior.styles.size() == 0xffff)
       errors.push_back(make_error("place.too-many-looks", "this scene has more than 65535 different surfaces", "leave some objects out"));
-    if (placed.looks.size() < 0xffff + 1) placed.looks.push_back(look);
-    return static_cast<std::uint16_t>(placed.looks.size() - 1);
+    if (interior.styles.size() < 0xffff + 1) interior.styles.push_back(style);
+    return static_cast<std::uint16_t>(interior.styles.size() - 1);
   }
 
-  // The looks of a material by the tags that panels carry: 0, and 1 for the second colour of a checker.
-  std::vector<std::uint16_t> looks_of(const Material& material) {
-    Look look{material.color, -1, material};
-    if (material.pattern == Pattern::texture) look.texture = texture(material.texture);
-    if (!material.opacity_mask.value.empty()) look.texture = masked_texture(material), look.cutoff = material.cutoff;
-    std::vector<std::uint16_t> looks{add(look)};
-    look.color = material.second;
-    if (material.pattern == Pattern::checker) looks.push_back(add(look));
-    return looks;
+  // Adds the styles of a material: style 0, and style 1 for the second colour of a checker.
+  std::vector<std::uint16_t> add_styles(const Material& material) {
+    SurfaceStyle style{material.color, -1, material};
+    if (material.pattern == Pattern::texture) style.texture = texture(material.texture);
+    if (!material.opacity_mask.value.empty()) {
+      style.texture = masked_texture(material);
+      style.alpha_cutoff = material.alpha_cutoff;
+    }
+    std::vector<std::uint16_t> styles{add(style)};
+    style.color = material.second;
+    if (material.pattern == Pattern::checker) styles.push_back(add(style));
+    return styles;
   }
 
-  void add_part(PlacedMesh mesh, const std::vector<std::uint16_t>& looks, const SourceSpan& span) {
+  void add_part(PlacedMesh mesh, const std::vector<std::uint16_t>& styles, const SourceSpan& span) {
     bool textured = false;
-    for (std::uint16_t& look : mesh.look) {
-      look = looks[std::min<std::size_t>(look, looks.size() - 1)];
-      textured = textured || placed.looks[look].texture >= 0;
+    for (std::uint16_t& style : mesh.style) {
+      style = styles[std::min<std::size_t>(style, styles.size() - 1)];
+      textured = textured || interior.styles[style].texture >= 0;
     }
     if (!textured) mesh.uv.clear();
-    Result<PlacedMesh> done = wrapped(room.space, std::move(mesh));
+    Result<PlacedMesh> done = cut_at_uv_repeats(room.space, std::move(mesh));
     if (!done) return fail(std::move(done).error(), span);
-    placed.parts.push_back(*std::move(done));
+    interior.parts.push_back(*std::move(done));
   }
 };
 
@@ -149,7 +153,8 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
     if (material.pattern != Pattern::texture) return;
     const int index = builder.texture(material.texture);
     if (index >= 0)
-      options.texture_size = std::max({options.texture_size, builder.placed.textures[index].width, builder.placed.textures[index].height});
+      options.texture_size =
+          std::max({options.texture_size, builder.interior.textures[index].width, builder.interior.textures[index].height});
   };
   if (shell.floor) measure(*shell.floor);
   if (shell.ceiling) measure(*shell.ceiling);
@@ -163,18 +168,18 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
     if (!material.opacity_mask.value.empty())
       builder.errors.push_back(make_error("place.masked-shell", fmt::format("the {} closes the room and can have no holes", panel.name),
                                           "put the `opacity_mask` on an object", material.opacity_mask.span));
-    const std::vector<std::uint16_t> looks = builder.looks_of(material);
-    builder.add_part(std::move(panel), looks, material.span);
+    const std::vector<std::uint16_t> styles = builder.add_styles(material);
+    builder.add_part(std::move(panel), styles, material.span);
   }
-  const auto& parts = builder.placed.parts;
+  const auto& parts = builder.interior.parts;
   if (std::any_of(parts.begin(), parts.end(), [](const PlacedMesh& part) { return !part.uv.empty(); }))
-    builder.placed.parts = sewn(builder.room, spec.height, std::move(builder.placed.parts));
+    builder.interior.parts = stitch_panels(builder.room, spec.height, std::move(builder.interior.parts));
 }
 
 // ---- objects ----------------------------------------------------------------------------------------------------------------
 
-const mesh::Mesh* load(Builder& builder, const scene::Sourced<std::string>& path) {
-  const std::string file = builder.same_path(path.value);
+const mesh::Mesh* load(Builder& builder, const scene::Located<std::string>& path) {
+  const std::string file = builder.normal_path(path.value);
   const auto known = builder.mesh_of_path.find(file);
   if (known != builder.mesh_of_path.end()) return known->second.triangles.empty() ? nullptr : &known->second;
   Result<mesh::LoadedMesh> loaded = builder.assets.load_mesh(builder.path_of(path.value));
@@ -199,24 +204,24 @@ mesh::Mesh primitive(const scene::Object& object) {
   return {};
 }
 
-// The looks of an object's mesh: the author's material, else what the file says.
-std::vector<std::uint16_t> file_looks(Builder& builder, const mesh::Mesh& mesh, const PlacedMesh& placed) {
-  std::vector<std::uint16_t> looks;
-  const int first = static_cast<int>(builder.placed.textures.size());
-  builder.placed.textures.insert(builder.placed.textures.end(), mesh.textures.begin(), mesh.textures.end());
+// Adds the styles and textures that a mesh file has.
+std::vector<std::uint16_t> add_file_styles(Builder& builder, const mesh::Mesh& mesh, const PlacedMesh& placed) {
+  std::vector<std::uint16_t> styles;
+  const int first = static_cast<int>(builder.interior.textures.size());
+  builder.interior.textures.insert(builder.interior.textures.end(), mesh.textures.begin(), mesh.textures.end());
   for (const mesh::Material& own : mesh.materials) {
-    Look look;
-    look.color = look.material.color = {own.color[0], own.color[1], own.color[2]};
-    look.texture = own.texture >= 0 && !placed.uv.empty() ? first + own.texture : -1;
-    look.cutoff = own.alpha_cutoff;
-    looks.push_back(builder.add(look));
+    SurfaceStyle style;
+    style.color = style.material.color = {own.color[0], own.color[1], own.color[2]};
+    style.texture = own.texture >= 0 && !placed.uv.empty() ? first + own.texture : -1;
+    style.alpha_cutoff = own.alpha_cutoff;
+    styles.push_back(builder.add(style));
   }
-  if (looks.empty()) looks.push_back(builder.add({}));
-  return looks;
+  if (styles.empty()) styles.push_back(builder.add({}));
+  return styles;
 }
 
-// Takes what needs texture coordinates from the material of a mesh without them. In: what has none: a mesh file, or a thing of its own.
-void leave_out_pictures(Builder& builder, const std::string& what, Material& material) {
+// Removes texture and opacity mask from the material of a mesh without uv, with a warning. In: `what` is the mesh file or the object.
+void remove_textures(Builder& builder, const std::string& what, Material& material) {
   if (material.pattern == Pattern::texture) {
     builder.warn_once(what + "\ntexture",
                       make_warning("place.no-uv", fmt::format("{} has no texture coordinates; it is shown in its plain colour", what),
@@ -232,20 +237,20 @@ void leave_out_pictures(Builder& builder, const std::string& what, Material& mat
   }
 }
 
-// Adds a mesh in one material. Checkers are solid: cells of the mesh's own coordinates. `file`: of a mesh that comes from one.
+// Adds a mesh in one material. Checkers are solid: cells of the mesh's pattern_position. `file` is the mesh file, if there is one.
 void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const SourceSpan& span, const std::string& file = {}) {
   if (mesh.uv.empty()) {
     const std::string kind = mesh.kind == PartKind::frame ? "a mirror's frame" : mesh.name;
-    leave_out_pictures(builder, file.empty() ? kind : file, material);
+    remove_textures(builder, file.empty() ? kind : file, material);
   }
-  std::fill(mesh.look.begin(), mesh.look.end(), std::uint16_t{0});
+  std::fill(mesh.style.begin(), mesh.style.end(), std::uint16_t{0});
   if (material.pattern == Pattern::checker) {
     Result<PlacedMesh> cells = checkered(builder.room.space, std::move(mesh), material.cell);
     if (!cells) return builder.fail(std::move(cells).error(), material.span.source ? material.span : span);
     mesh = *std::move(cells);
   }
-  const std::vector<std::uint16_t> looks = builder.looks_of(material);
-  builder.add_part(std::move(mesh), looks, span);
+  const std::vector<std::uint16_t> styles = builder.add_styles(material);
+  builder.add_part(std::move(mesh), styles, span);
 }
 
 void build_frames(Builder& builder, const ClippedMirrors& mirrors) {
@@ -265,20 +270,20 @@ void build_frames(Builder& builder, const ClippedMirrors& mirrors) {
   }
 }
 
-void build_beam(Builder& builder, const scene::Object& object, const scene::BeamSpec& beam) {
+void build_beam(Builder& builder, const scene::Object& object, const scene::BarSpec& beam) {
   const double height = builder.scene.room.height;
   Result<geometry::Position> from = locate(beam.from, builder.room, height, 0), to = locate(beam.to, builder.room, height, 0);
   if (!from) builder.fail(std::move(from).error(), object.span);
   if (!to) builder.fail(std::move(to).error(), object.span);
   if (!from || !to) return;
-  Result<PlacedMesh> mesh = make_beam(builder.room, height, *from, *to, beam.width);
+  Result<PlacedMesh> mesh = make_bar(builder.room, height, *from, *to, beam.width);
   if (!mesh) return builder.fail(std::move(mesh).error(), object.span);
   mesh->name = object.name;
   add_in_material(builder, *std::move(mesh), object.material.value_or(Material{}), object.span);
 }
 
 void build_object(Builder& builder, const scene::Object& object) {
-  if (const auto* beam = std::get_if<scene::BeamSpec>(&object.shape)) return build_beam(builder, object, *beam);
+  if (const auto* beam = std::get_if<scene::BarSpec>(&object.shape)) return build_beam(builder, object, *beam);
   mesh::Mesh own;
   const mesh::Mesh* mesh = &own;
   if (const auto* file = std::get_if<scene::MeshFile>(&object.shape)) mesh = load(builder, file->path);
@@ -288,9 +293,9 @@ void build_object(Builder& builder, const scene::Object& object) {
   if (!placed) return builder.fail(std::move(placed).error(), object.span);
   const auto* file = std::get_if<scene::MeshFile>(&object.shape);
   if (object.material)
-    return add_in_material(builder, *std::move(placed), *object.material, object.span, file ? builder.same_path(file->path.value) : "");
-  const std::vector<std::uint16_t> looks = file_looks(builder, *mesh, *placed);
-  builder.add_part(*std::move(placed), looks, object.span);
+    return add_in_material(builder, *std::move(placed), *object.material, object.span, file ? builder.normal_path(file->path.value) : "");
+  const std::vector<std::uint16_t> styles = add_file_styles(builder, *mesh, *placed);
+  builder.add_part(*std::move(placed), styles, object.span);
 }
 
 }  // namespace
@@ -298,16 +303,16 @@ void build_object(Builder& builder, const scene::Object& object) {
 Result<Furnished> furnish(const scene::Scene& scene, const room::Room& room, const mesh::AssetSource& assets,
                           const FurnishOptions& options) {
   Builder builder{scene, room, assets, options, {}, {}, {}, {}, {}, {}};
-  builder.placed.room = room;
-  builder.placed.height = scene.room.height;
+  builder.interior.polygon = room;
+  builder.interior.height = scene.room.height;
   ClippedMirrors mirrors = clipped_mirrors(scene.room, room);
-  builder.placed.mirrors = mirrors.mirrors;
+  builder.interior.mirrors = mirrors.mirrors;
   builder.warnings = std::move(mirrors.warnings);
   build_shell(builder, mirrors);
   build_frames(builder, mirrors);
   for (const scene::Object& object : scene.objects) build_object(builder, object);
   if (has_error(builder.errors)) return std::move(builder.errors);
-  return Furnished{std::move(builder.placed), std::move(builder.warnings)};
+  return Furnished{std::move(builder.interior), std::move(builder.warnings)};
 }
 
 }  // namespace orbc::place

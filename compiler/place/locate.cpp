@@ -1,6 +1,6 @@
-// A point at given distances from two walls: walls are covectors l with value sinκ(distance) at X. Their vectors L = (κ l_w, l_x, l_y) span
-// a plane in the form B(U, V) = κ U_w V_w + U_x V_x + U_y V_y, so X = αL_a + βL_b + tN with N orthogonal to both; α, β follow from the two
-// distances and t from B(X, X) = κ. Both signs of t are points of the space; the one in the room is meant.
+// A point at given distances from two walls. Walls are covectors l whose value at X is sinκ(distance). Their vectors L = (κ l_w, l_x, l_y)
+// span a plane with respect to the form B(U, V) = κ U_w V_w + U_x V_x + U_y V_y, so X = αL_a + βL_b + tN with N orthogonal to both. α and β
+// follow from the two distances, and t from B(X, X) = κ. Both signs of t give points of the space; the result is the one in the room.
 #include "compiler/place/locate.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ using geometry::Line;
 using geometry::Point;
 using geometry::Space;
 
-/// A length in four digits that is not more than it: what a hint names can be taken as it stands.
+/// A length rounded down to four digits, so that the value in a hint is allowed.
 std::string rounded_down(double length) {
   if (!(length > 0) || !std::isfinite(length)) return to_text(length);
   const double unit = math::pow(10, std::floor(math::log10(length)) - 3);
@@ -35,7 +35,7 @@ Diagnostic outside_room(const room::Room& room, const Point& x, const SourceSpan
   const double azimuth = math::atan2(x.y, x.x), r = math::abs(geometry::log_from_point(room.space, x));
   return make_error("place.outside-room", fmt::format("this place lies {} beyond wall {}", to_text(over.distance), over.wall + 1),
                     fmt::format("it is {} from the centre; in that direction ({:.4g}deg) the room ends at {}", to_text(r),
-                                azimuth * 180 / std::numbers::pi, rounded_down(reach(room, azimuth))),
+                                azimuth * 180 / std::numbers::pi, rounded_down(distance_to_boundary(room, azimuth))),
                     span);
 }
 
@@ -47,11 +47,11 @@ Result<Point> polar(const room::Room& room, double r, double radians, const Sour
   if (!std::isfinite(r) || !std::isfinite(radians)) return not_finite(span);
   if (room.space == Space::hyperbolic && std::fabs(r) > 300)
     return make_error("place.outside-room", fmt::format("this place is {} from the centre, far outside the room", to_text(r)),
-                      fmt::format("in that direction the room ends at {}", rounded_down(reach(room, radians))), span);
+                      fmt::format("in that direction the room ends at {}", rounded_down(distance_to_boundary(room, radians))), span);
   return geometry::point_from_log(room.space, math::polar(std::fabs(r), r < 0 ? radians + std::numbers::pi : radians));
 }
 
-// T_x(x)·T_y(y) applied to the centre: on S² longitude and latitude, in H² Lobachevsky's coordinates.
+// T_x(x)·T_y(y) applied to the centre: longitude and latitude on S², Lobachevsky coordinates in H².
 Result<Point> from_xy(const room::Room& room, const scene::AtXy& at, const SourceSpan& span) {
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return not_finite(span);
   const Space space = room.space;
@@ -125,13 +125,13 @@ Result<Point> between_walls(const room::Room& room, const scene::AtWalls& at, co
   if (!std::isfinite(at.distances[0]) || !std::isfinite(at.distances[1])) return not_finite(span);
   const int i = at.walls[0] - 1, j = at.walls[1] - 1;
   if (at.distances[0] == 0 && at.distances[1] == 0 && !room.corners.empty()) {
-    // The corner itself, as it is stored, so that it is on the border by exact signs.
+    // The corner as it is stored, so that it is on the boundary by exact predicates.
     if (count == 2 || (i + 1) % count == j) return room.corners[j].at;
     if ((j + 1) % count == i) return room.corners[i].at;
   }
   const std::vector<Point> points = at_distances(room.space, room.walls[i].line, room.walls[j].line, at.distances[0], at.distances[1]);
   if (points.empty()) return none("walls that do not meet leave room only for some pairs of distances");
-  // Of two such points in the room the one nearer to the centre is meant, of two equally near ones the one on the side of corner 1.
+  // Of two such points in the room the one nearer to the centre counts; of two equally near ones the one on the side of corner 1.
   const auto better = [&](const Point& p, const Point& q) {
     const bool p_inside = overhang(room, p).distance <= 1e-12, q_inside = overhang(room, q).distance <= 1e-12;
     if (p_inside != q_inside) return p_inside;
@@ -144,7 +144,7 @@ Result<Point> between_walls(const room::Room& room, const scene::AtWalls& at, co
   return *best;
 }
 
-Result<Point> unchecked(const scene::Place& place, const room::Room& room) {
+Result<Point> locate_unchecked(const scene::Place& place, const room::Room& room) {
   if (const auto* at = std::get_if<scene::AtDisk>(&place.floor)) return from_disk(room, at->z, place.span);
   if (const auto* at = std::get_if<scene::AtPolar>(&place.floor)) return polar(room, at->r, at->angle.radians, place.span);
   if (const auto* at = std::get_if<scene::AtXy>(&place.floor)) return from_xy(room, *at, place.span);
@@ -157,15 +157,15 @@ Result<Point> unchecked(const scene::Place& place, const room::Room& room) {
 
 std::string to_text(double length) { return fmt::format("{:.4g}", length); }
 
-double reach(const room::Room& room, double azimuth) {
+double distance_to_boundary(const room::Room& room, double azimuth) {
   // On the ray cosκ(r)·O + sinκ(r)·(0, d) the wall's value vanishes at tanκ(r) = −l_w/(l·d).
   double nearest = std::numeric_limits<double>::infinity();
   for (const room::Wall& wall : room.walls) {
-    const double towards = -(wall.line.x * math::cos(azimuth) + wall.line.y * math::sin(azimuth));
+    const double outward = -(wall.line.x * math::cos(azimuth) + wall.line.y * math::sin(azimuth));
     double r = std::numeric_limits<double>::infinity();
-    if (room.space == Space::spherical) r = math::atan2(wall.line.w, towards);
-    else if (towards > 0 && (room.space == Space::euclidean || wall.line.w < towards))
-      r = geometry::atan_k(room.space, wall.line.w / towards);
+    if (room.space == Space::spherical) r = math::atan2(wall.line.w, outward);
+    else if (outward > 0 && (room.space == Space::euclidean || wall.line.w < outward))
+      r = geometry::atan_k(room.space, wall.line.w / outward);
     if (r >= 0) nearest = std::fmin(nearest, r);
   }
   return nearest;
@@ -180,9 +180,9 @@ Overhang overhang(const room::Room& room, const Point& x) {
   return worst;
 }
 
-Point rounded_into(const room::Room& room, const Point& x) {
+Point snap_into_room(const room::Room& room, const Point& x) {
   if (geometry::contains(room.outline, x) != Containment::outside) return x;
-  // Steps towards the centre, which lies inside: 2⁻⁵³ to 2⁻⁴⁶ of the coordinates, which is what constructing a point costs.
+  // Steps towards the centre, which lies inside, of 2⁻⁵³ to 2⁻⁴⁶ of the coordinates: the rounding error of a constructed point.
   for (double step = 0x1p-53; step <= 0x1p-46; step *= 2) {
     const Point p = geometry::normalised_point(room.space, {x.w + step, x.x - step * x.x, x.y - step * x.y});
     if (geometry::contains(room.outline, p) != Containment::outside) return p;
@@ -191,9 +191,9 @@ Point rounded_into(const room::Room& room, const Point& x) {
 }
 
 Result<Point> locate(const scene::Place& place, const room::Room& room) {
-  Result<Point> point = unchecked(place, room);
+  Result<Point> point = locate_unchecked(place, room);
   if (!point) return point;
-  const Point p = rounded_into(room, *point);
+  const Point p = snap_into_room(room, *point);
   if (geometry::contains(room.outline, p) == Containment::outside) return outside_room(room, p, place.span);
   return p;
 }

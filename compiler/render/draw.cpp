@@ -20,7 +20,7 @@ struct Pixel {
 // Writes what the first sample of a pixel has found into the passes of the film.
 void record(const RayResult& result, std::size_t pixel, Film& film) {
   film.bounces[pixel] = result.path.bounces;
-  film.weight[pixel] = static_cast<float>(std::max({result.path.weight.r, result.path.weight.g, result.path.weight.b}));
+  film.weight[pixel] = static_cast<float>(std::max({result.path.throughput.r, result.path.throughput.g, result.path.throughput.b}));
   if (!result.hit) return;
   film.depth[pixel] = static_cast<float>(result.path.length);
   film.object[pixel] = result.surface.part;
@@ -43,12 +43,12 @@ struct PixelSums {
     own.indirect = own.indirect + result.indirect;
     ++own.count;
   }
-  [[nodiscard]] scene::Color mean(double n) const { return least((1 / n) * radiance, (1 / n) * white_bound); }
+  [[nodiscard]] scene::Color mean(double n) const { return component_min((1 / n) * radiance, (1 / n) * white_bound); }
   /// Standard error of the mean in the noisiest channel, from the spread between groups; of a single sample its estimate itself.
   [[nodiscard]] float error(double n) const {
     scene::Color indirect, squares;
     for (const Group& group : groups) indirect = indirect + group.indirect;
-    if (n < 2) return static_cast<float>(largest(indirect));
+    if (n < 2) return static_cast<float>(max_channel(indirect));
     double count = 0;
     for (const Group& group : groups) {
       if (group.count == 0) continue;
@@ -59,13 +59,13 @@ struct PixelSums {
     // A channel that is clamped to white shows no noise.
     const auto variance = [&](double sum, double all, double bound) { return all >= bound ? 0 : sum / (count * (count - 1)); };
     return static_cast<float>(
-        std::sqrt(scene::largest({variance(squares.r, radiance.r, white_bound.r), variance(squares.g, radiance.g, white_bound.g),
+        std::sqrt(scene::max_channel({variance(squares.r, radiance.r, white_bound.r), variance(squares.g, radiance.g, white_bound.g),
                                   variance(squares.b, radiance.b, white_bound.b)})));
   }
 };
 
 // In: the eye's point of the floor.
-trace::Ray eye_ray_from(const place::Eye& eye, const geometry::Point& at, double x, double y) {
+trace::Ray eye_ray_from(const place::Camera& eye, const geometry::Point& at, double x, double y) {
   const geometry::Vector3 d = place::direction_through(eye, x, y);
   const geometry::Tangent floor = eye.room_from_eye * geometry::Tangent(0, d.x, d.y);
   return trace::ray_from(eye.room_from_eye.space, {at, eye.z}, {floor, d.z});
@@ -84,7 +84,7 @@ PixelSampler sampler_for(const DrawOptions& options, std::size_t pixel, int samp
 }
 
 /// Draws pixels with all their samples, a stream of rays at a time.
-void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options,
+void draw_pixels(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options,
                  const std::vector<std::array<double, 2>>& samples, const std::vector<Pixel>& pixels, Film& film) {
   const std::size_t count = samples.size(), all = pixels.size() * count;
   const double n = static_cast<double>(count);
@@ -123,7 +123,7 @@ void draw_pixels(const trace::TraceScene& scene, const place::Eye& eye, const Dr
 
 }  // namespace
 
-trace::Ray eye_ray(const place::Eye& eye, double x, double y) { return eye_ray_from(eye, eye.room_from_eye * geometry::Point(), x, y); }
+trace::Ray eye_ray(const place::Camera& eye, double x, double y) { return eye_ray_from(eye, eye.room_from_eye * geometry::Point(), x, y); }
 
 std::vector<std::array<double, 2>> sample_points(int samples) {
   const int side = static_cast<int>(std::lround(std::sqrt(samples)));
@@ -138,7 +138,7 @@ std::vector<std::array<double, 2>> sample_points(int samples) {
   return points;
 }
 
-Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor,
+Film draw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const Executor& executor,
           const Progress& progress) {
   Film film = make_film(eye.width, eye.height);
   if (options.lighting && options.lighting->options.indirect_bounces > 0) film.error.assign(film.color.size(), 0);

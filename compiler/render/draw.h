@@ -5,7 +5,7 @@
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/light/lighting.h"
-#include "compiler/place/eye.h"
+#include "compiler/place/camera.h"
 #include "compiler/render/film.h"
 #include "compiler/trace/follow.h"
 
@@ -27,11 +27,11 @@ struct DrawOptions {
 /// Draws the reference picture: the rays of every pixel, followed as geodesics over real mirrors. It never unfolds the room and never bends
 /// meshes. An eye with a lens sends each sample from another point of the lens.
 /// Makes: the same film, bit by bit, for any executor: samples are fixed points of the pixel, and pixels are independent.
-[[nodiscard]] Film draw(const trace::TraceScene& scene, const place::Eye& eye, const DrawOptions& options, const Executor& executor,
+[[nodiscard]] Film draw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const Executor& executor,
                         const Progress& progress = {});
 
 /// The geodesic from the eye through the point (x, y) of the picture, in pixels.
-[[nodiscard]] trace::Ray eye_ray(const place::Eye& eye, double x, double y);
+[[nodiscard]] trace::Ray eye_ray(const place::Camera& eye, double x, double y);
 
 /// The samples of a pixel: points of [0, 1)².
 [[nodiscard]] std::vector<std::array<double, 2>> sample_points(int samples);

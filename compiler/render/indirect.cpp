@@ -27,13 +27,13 @@ struct PathStart {
   std::array<double, 3> lamp_numbers;
 };
 
-Color trace_indirect_path(const place::PlacedRoom& room, const light::LightingContext& lighting, const surface::ShadingPoint& from,
+Color trace_indirect_path(const place::Interior& room, const light::LightingContext& lighting, const surface::ShadingPoint& from,
                           const PathStart& start, surface::Random& random) {
   surface::ShadingPoint at = from;
   light::LightPath path;
   for (int bounces = 0; bounces < lighting.options.indirect_bounces; ++bounces) {
     if (bounces >= kMinBounces) {
-      const double probability = std::min(1.0, largest(path.throughput));
+      const double probability = std::min(1.0, max_channel(path.throughput));
       if (random.next() >= probability) break;
       path.throughput = (1 / probability) * path.throughput;
     }
@@ -45,7 +45,7 @@ Color trace_indirect_path(const place::PlacedRoom& room, const light::LightingCo
     if (!path.end) break;
     at = light::shading_point(lighting, *lighting.shadow_casters, path.end->point, path.end->hit);
     path.throughput = path.throughput * surface::hit_albedo(room, path.end->point);
-    if (largest(path.throughput) <= 0) break;
+    if (max_channel(path.throughput) <= 0) break;
     const Color direct = light::estimate_irradiance(lighting, at, bounces == 0 ? start.lamp_numbers : random.next_three());
     path.radiance = path.radiance + path.throughput * (lighting.ambient + (1 / std::numbers::pi) * direct);
   }
@@ -71,7 +71,7 @@ light::SampleStratum PixelSampler::stratum_of(int sample, int samples) {
   return {(i + slope * j) % side + side * j, samples};
 }
 
-Color indirect_irradiance(const place::PlacedRoom& room, const light::LightingContext& lighting, const surface::ShadingPoint& from,
+Color indirect_irradiance(const place::Interior& room, const light::LightingContext& lighting, const surface::ShadingPoint& from,
                           PixelSampler& sampler, int paths) {
   const light::Guide guide = light::guide_at(lighting, from);
   Color sum;
@@ -88,7 +88,7 @@ double rms_noise(const Film& film, double exposure) {
   double sum = 0;
   for (std::size_t i = 0; i < film.error.size(); ++i) {
     const Color& c = film.color[i];
-    const double value = exposure * largest(c), step = std::min(exposure * static_cast<double>(film.error[i]), 1.0);
+    const double value = exposure * max_channel(c), step = std::min(exposure * static_cast<double>(film.error[i]), 1.0);
     const double shown = 255 * (image::encode_srgb(value + step) - image::encode_srgb(std::max(0.0, value - step))) / 2;
     sum += shown * shown;
   }

@@ -16,7 +16,7 @@ namespace orbc::render {
 using geometry::Point;
 using geometry::Vector3;
 
-trace::Ray lens_ray(const place::Eye& eye, double x, double y, const std::array<double, 2>& on_lens) {
+trace::Ray lens_ray(const place::Camera& eye, double x, double y, const std::array<double, 2>& on_lens) {
   ORBC_CHECK(eye.lens.has_value(), ==, true);
   const geometry::Space space = eye.room_from_eye.space;
   const Vector3 d = place::direction_through(eye, x, y), there = eye.lens->focus_distance * d;

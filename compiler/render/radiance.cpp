@@ -57,21 +57,21 @@ struct RayShader {
   // In: the path up to the branch; what the branch can hit.
   void continue_path(const trace::Path& path, const Branch& branch, int depth, const trace::TraceScene& target) {
     trace::FollowOptions follow = follow_options(options);
-    follow.weight = branch.weight;
+    follow.throughput = branch.weight;
     follow.bounces = path.bounces;
     follow.length = path.length;
-    shade(trace::follow(target, trace::leave(target, branch.from, branch.direction), follow), branch.share, depth + 1, target);
+    shade(trace::follow(target, trace::spawn_ray(target, branch.from, branch.direction), follow), branch.share, depth + 1, target);
   }
 
   // The point with the normal of the smooth surface that the triangles approximate: mirror, glass and metal would look like mosaics. The
   // normal of the triangle stays where the smooth one turns away from the ray, or would reflect the ray into the triangle.
   [[nodiscard]] trace::SurfacePoint smoothed(trace::SurfacePoint point, const trace::Hit& hit) const {
-    if (!options.lighting || hit.target != trace::Target::triangle) return point;
-    const geometry::Space space = scene.room->room.space;
-    Direction normal = light::shading_point(*options.lighting, *scene.room, point, hit).normal;
+    if (!options.lighting || hit.kind != trace::HitKind::triangle) return point;
+    const geometry::Space space = scene.interior->polygon.space;
+    Direction normal = light::shading_point(*options.lighting, *scene.interior, point, hit).normal;
     if (trace::inner(space, normal, point.normal) < 0) normal = -normal;
     const Direction flat = point.normal;
-    if (trace::inner(space, normal, point.arriving) < 0) point.normal = normal;
+    if (trace::inner(space, normal, point.incoming) < 0) point.normal = normal;
     if (trace::inner(space, surface::reflect(space, point), flat) <= 0) point.normal = flat;
     return point;
   }
@@ -80,21 +80,21 @@ struct RayShader {
   void shade_lit(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color,
                  double share) {
     const light::LightingContext& lighting = *options.lighting;
-    const Color weight = share * path.weight;
+    const Color weight = share * path.throughput;
     // The directions sampled for a metal are not clamped one by one.
     if (material.kind == scene::MaterialKind::emissive)
       return add(weight * (metal_depth > 0 ? material.emission * color : light::outgoing_radiance(lighting, material, color, {})));
-    const surface::ShadingPoint at = light::shading_point(lighting, *scene.room, point, path.hit);
+    const surface::ShadingPoint at = light::shading_point(lighting, *scene.interior, point, path.hit);
     const double white = light::white_level(lighting);
     const auto baked = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
     Color out =
         baked ? white * *baked : light::outgoing_radiance(lighting, material, color, light::irradiance(lighting, at, sampler.stratum));
-    if (material.kind == scene::MaterialKind::glossy) out = out + light::highlight(lighting, at, -point.arriving, material, color);
+    if (material.kind == scene::MaterialKind::glossy) out = out + light::highlight(lighting, at, -point.incoming, material, color);
     out = clamped(out, white);
     if (baked || lighting.options.indirect_bounces == 0) return add(weight * out);
     // Estimates that exceed white are not clamped one by one: their mean would become too dark. Sums::mean clamps it.
     const int paths = std::max(1, static_cast<int>(sample_share * options.paths));
-    const Color indirect = color * indirect_irradiance(*scene.room, lighting, at, sampler, paths);
+    const Color indirect = color * indirect_irradiance(*scene.interior, lighting, at, sampler, paths);
     const Color kept{out.r < white ? indirect.r : 0, out.g < white ? indirect.g : 0, out.b < white ? indirect.b : 0};
     result.radiance = result.radiance + sample_share * weight * (out + kept);
     result.indirect = result.indirect + sample_share * weight * kept;
@@ -104,7 +104,7 @@ struct RayShader {
   // Whether a metal mirrors the room. A metal seen in metals shows its albedo if it is faint or the fourth. Its inside is hit by rounding
   // errors alone.
   [[nodiscard]] bool mirrors_room(const trace::SurfacePoint& point, double share, int depth) const {
-    return metal_depth < kMaxMetals && share >= kMinMetalShare && (point.outside || depth == 0);
+    return metal_depth < kMaxMetals && share >= kMinMetalShare && (point.front_facing || depth == 0);
   }
 
   // The room in a rough metal: the mean over sampled directions, which continue the stratification of the pixel; and the lamps, whose
@@ -113,19 +113,19 @@ struct RayShader {
                    double share, int depth) {
     const light::LightingContext& lighting = *options.lighting;
     const geometry::Space space = scene.prism.space;
-    const Color f0 = surface::f0(material, color), weight = sample_share * share * path.weight,
+    const Color f0 = surface::f0(material, color), weight = sample_share * share * path.throughput,
                 white = light::white_level(lighting) * weight;
-    const surface::ShadingPoint at = light::shading_point(lighting, *scene.room, point, path.hit);
-    const Color lamps = least(weight * light::highlight(lighting, at, -point.arriving, material, color), white);
+    const surface::ShadingPoint at = light::shading_point(lighting, *scene.interior, point, path.hit);
+    const Color lamps = component_min(weight * light::highlight(lighting, at, -point.incoming, material, color), white);
     const Color radiance_before = result.radiance, bound_before = result.white_bound;
     const trace::SurfacePoint smooth = smoothed(point, path.hit);
     const light::SampleStratum stratum = sampler.stratum;
     const int lattice_index = sampler.lattice_index;
     const int all =
-        specular_sample_count(material, share * largest(path.weight), std::max(1, options.specular_samples >> (3 * metal_depth)));
+        specular_sample_count(material, share * max_channel(path.throughput), std::max(1, options.specular_samples >> (3 * metal_depth)));
     const int count = std::max(1, all / stratum.count);
-    const double alpha = surface::ggx_alpha(material), cos_eye = -trace::inner(space, smooth.arriving, smooth.normal);
-    const Color throughput = surface::multiscatter_compensation(f0, cos_eye, alpha) * path.weight;
+    const double alpha = surface::ggx_alpha(material), cos_eye = -trace::inner(space, smooth.incoming, smooth.normal);
+    const Color throughput = surface::multiscatter_compensation(f0, cos_eye, alpha) * path.throughput;
     sample_share /= count;
     ++metal_depth;
     for (int i = 0; i < count; ++i) {
@@ -152,42 +152,43 @@ struct RayShader {
     const surface::Refraction glass = surface::refract(space, point, index);
     const double reflected = share * glass.reflectance, transmitted = share * (1 - glass.reflectance),
                  least = metal_depth ? kMinGlassShareInMetal : kMinGlassShare;
-    if (reflected >= least) continue_path(path, {point, surface::reflect(space, point), path.weight, reflected}, depth, scene);
+    if (reflected >= least) continue_path(path, {point, surface::reflect(space, point), path.throughput, reflected}, depth, scene);
     if (transmitted < least) return;
     trace::SurfacePoint behind = point;
     behind.normal = -point.normal;
-    continue_path(path, {behind, glass.direction, point.outside ? path.weight * color : path.weight, transmitted}, depth, scene);
+    continue_path(path, {behind, glass.direction, point.front_facing ? path.throughput * color : path.throughput, transmitted}, depth,
+                  scene);
   }
 
   // In: the scene in which the path was followed.
   void shade(const trace::Path& path, double share, int depth, const trace::TraceScene& followed_in) {
-    add(share * path.glow);
-    if (path.cut_off || path.hit.target == trace::Target::nothing) return add(share * (path.weight * options.background));
-    const trace::SurfacePoint point = trace::surface_at(followed_in, path.last, path.hit);
+    add(share * path.emission);
+    if (path.cut_off || path.hit.kind == trace::HitKind::none) return add(share * (path.throughput * options.background));
+    const trace::SurfacePoint point = trace::surface_at(followed_in, path.last_ray, path.hit);
     if (depth == 0) {
       result.surface = point;
       result.hit = true;
     }
-    const scene::Material* material = point.look >= 0 ? &scene.room->looks[static_cast<std::size_t>(point.look)].material : nullptr;
-    const Color color = surface::hit_albedo(*scene.room, point);
-    if (!material) return add(share * (path.weight * clamped(color, options.max_radiance)));
+    const scene::Material* material = point.style >= 0 ? &scene.interior->styles[static_cast<std::size_t>(point.style)].material : nullptr;
+    const Color color = surface::hit_albedo(*scene.interior, point);
+    if (!material) return add(share * (path.throughput * clamped(color, options.max_radiance)));
     const bool emissive = material->kind == scene::MaterialKind::emissive;
-    if (emissive && !options.lighting) return add(share * (path.weight * clamped(material->emission * color, options.max_radiance)));
+    if (emissive && !options.lighting) return add(share * (path.throughput * clamped(material->emission * color, options.max_radiance)));
     const bool mirror = material->kind == scene::MaterialKind::mirror, glass = material->kind == scene::MaterialKind::glass;
-    const bool specular_metal = options.lighting && surface::is_specular_metal(*material) && (point.outside || depth == 0);
+    const bool specular_metal = options.lighting && surface::is_specular_metal(*material) && (point.front_facing || depth == 0);
     if (options.lighting && material->kind == scene::MaterialKind::metal && !specular_metal && depth < options.max_depth &&
         mirrors_room(point, share, depth))
       return shade_metal(path, point, *material, color, share, depth);
     if (!(mirror || glass || specular_metal) || depth >= options.max_depth) {
       if (options.lighting) return shade_lit(path, point, *material, color, share);
-      return add(share * (path.weight * clamped(color, options.max_radiance)));
+      return add(share * (path.throughput * clamped(color, options.max_radiance)));
     }
     const geometry::Space space = scene.prism.space;
     const trace::SurfacePoint smooth = smoothed(point, path.hit);
     if (glass) return shade_glass(path, smooth, color, material->index, share, depth);
-    const double cos_eye = -trace::inner(space, smooth.arriving, smooth.normal);
+    const double cos_eye = -trace::inner(space, smooth.incoming, smooth.normal);
     const Color reflectance = mirror ? color : surface::fresnel_schlick(surface::f0(*material, color), cos_eye);
-    continue_path(path, {smooth, surface::reflect(space, smooth), path.weight * reflectance, share}, depth, scene);
+    continue_path(path, {smooth, surface::reflect(space, smooth), path.throughput * reflectance, share}, depth, scene);
   }
 };
 

@@ -10,9 +10,9 @@
 namespace orbc::scene {
 namespace {
 
-// Beyond these no point of a room can lie, and hyperbolic functions of larger lengths lose their meaning in double.
-constexpr double kFarthestHyperbolic = 100;
-constexpr double kFarthestSpherical = 3.141592653589793;
+// No point of a room lies farther from the centre; hyperbolic functions of larger lengths overflow or lose all digits in double.
+constexpr double kMaxDistanceHyperbolic = 100;
+constexpr double kMaxDistanceSpherical = 3.141592653589793;
 
 class Checker {
  public:
@@ -42,7 +42,7 @@ class Checker {
   }
 
   void check_object(const Object& object) {
-    if (const auto* beam = std::get_if<BeamSpec>(&object.shape)) {
+    if (const auto* beam = std::get_if<BarSpec>(&object.shape)) {
       check_place(beam->from);
       check_place(beam->to);
     } else {
@@ -51,7 +51,7 @@ class Checker {
   }
 
   void check_distance(double distance, const SourceSpan& span) {
-    const double farthest = curvature_ < 0 ? kFarthestHyperbolic : kFarthestSpherical;
+    const double farthest = curvature_ < 0 ? kMaxDistanceHyperbolic : kMaxDistanceSpherical;
     if (curvature_ != 0 && distance > farthest)
       error("scene.outside-space", fmt::format("the distance {} is too large: lengths are measured in curvature radii here", distance),
             fmt::format("at most {} in this space; `orbc info` prints how large the room is", curvature_ < 0 ? "100" : "π"), span);
@@ -91,11 +91,11 @@ class Checker {
           camera.size_span));
   }
 
-  void check_lens(const Sourced<std::variant<double, LookAtObject, Place>>& focus) {
+  void check_lens(const Located<std::variant<double, LookAtObject, Place>>& focus) {
     if (const auto* object = std::get_if<LookAtObject>(&focus.value)) check_named("focus", object->name, focus.span);
     if (const auto* place = std::get_if<Place>(&focus.value)) check_place(*place);
     const auto* distance = std::get_if<double>(&focus.value);
-    const double farthest = curvature_ == 0 ? kMaxLength : curvature_ < 0 ? kFarthestFocusHyperbolic : kFarthestFocusSpherical;
+    const double farthest = curvature_ == 0 ? kMaxLength : curvature_ < 0 ? kMaxFocusDistanceHyperbolic : kMaxFocusDistanceSpherical;
     if (distance && *distance > farthest)
       error("scene.outside-space", fmt::format("the focus distance {} is too large for this space", *distance),
             fmt::format("at most {} curvature radii, beyond which no lens can focus here", farthest), focus.span);

@@ -4,17 +4,17 @@
 
 namespace orbc::scene {
 
-/// What is wrong with a scene as a whole, as far as that shows without its geometry. The reader calls it; whoever makes or changes a scene
-/// in memory can call it too. Single values (ranges, types) are the reader's business.
-/// Diagnostics: scene.unknown-object, scene.looks-at-itself, scene.outside-space, scene.wall-count; warnings scene.stretched.
+/// Checks a scene as a whole, as far as that is possible without its geometry. The reader calls it; programs that make or change scenes in
+/// memory can call it too. It does not check ranges and types of single values, which the reader does. Diagnostics: scene.unknown-object,
+/// scene.looks-at-itself, scene.outside-space, scene.wall-count; warnings scene.stretched.
 [[nodiscard]] Diagnostics check(const Scene& scene);
 
-/// The farthest that a lens can focus. In H² what is farther is not told from it; on S² all rays from the lens to the antipode of the eye
-/// leave along its rim, so that near there no picture is left.
-inline constexpr double kFarthestFocusHyperbolic = 20;
-inline constexpr double kFarthestFocusSpherical = 3;
+/// The largest distances at which a lens can focus, in curvature radii. In H² all larger distances look the same. On S² all rays from the
+/// lens to the antipode of the eye leave along its rim, so that no image is formed near there.
+inline constexpr double kMaxFocusDistanceHyperbolic = 20;
+inline constexpr double kMaxFocusDistanceSpherical = 3;
 
-/// The sign of the curvature of the room's space: +1 S², 0 E², −1 H²; from χ in exact rationals (design §3).
+/// The sign of the curvature of the room's space: +1 S², 0 E², −1 H². Exact: from χ in rationals (design §3).
 [[nodiscard]] int curvature_sign(const notation::Orbifold& orbifold);
 
 }  // namespace orbc::scene

@@ -17,7 +17,7 @@ int corner_count(const notation::Orbifold& orbifold) { return orbifold.strip ? 4
 Surface default_floor() {
   Surface floor;
   floor.material.pattern = Pattern::checker;
-  floor.material.color = from_hex(0xF2EBDD);   // ivory and slate: light enough to show colours that mirrors tint
+  floor.material.color = from_hex(0xF2EBDD);   // ivory and slate, light enough to show the tints of mirrors
   floor.material.second = from_hex(0x6E7F91);
   return floor;
 }
@@ -47,25 +47,28 @@ Frame default_frame() {
 
 namespace {
 
-constexpr int kUsual = 12;               // bounces
-constexpr int kHyperbolicCopies = 200;
-constexpr int kSphericalCopies = 1000;   // more than the largest group with three corners below *22(250) has
+constexpr int kMinDefaultBounces = 12;               // bounces
+constexpr int kMaxDefaultCopiesHyperbolic = 200;
+constexpr int kMaxDefaultCopiesSpherical = 1000;   // more than the largest group with three corners below *22(250) has
 
-/// The most bounces whose copies are at most `most`, at least 1.
-/// In: copies by the number of walls on the way, and by how many storeys lie n mirrors away: mirrors on floor and ceiling.
-int bounces_within(const std::vector<Integer>& copies, int level_mirrors, const Integer& most) {
-  const auto storeys = [&](std::size_t n) { return n == 0 ? 1 : level_mirrors == 2 ? 2 : level_mirrors == 1 && n == 1 ? 1 : 0; };
+/// The largest number of bounces, at least 1, that gives at most `max_copies` copies.
+/// In: the number of copies by word length; the number of mirrors among floor and ceiling.
+int bounces_within(const std::vector<Integer>& copies, int horizontal_mirrors, const Integer& max_copies) {
+  // The number of vertical images that are n reflections away.
+  const auto vertical_images = [&](std::size_t n) {
+    return n == 0 ? 1 : horizontal_mirrors == 2 ? 2 : horizontal_mirrors == 1 && n == 1 ? 1 : 0;
+  };
   Integer sum = 1;
   int bounces = 0;
   for (std::size_t n = 1; n < copies.size(); ++n) {
-    for (std::size_t walls = 0; walls <= n; ++walls) sum += storeys(n - walls) * copies[walls];
-    if (sum > most) break;
+    for (std::size_t walls = 0; walls <= n; ++walls) sum += vertical_images(n - walls) * copies[walls];
+    if (sum > max_copies) break;
     bounces = static_cast<int>(n);
   }
   return std::max(1, bounces);
 }
 
-/// The orbifold whose corners are the next integers above: its room is wider and has more copies.
+/// The orbifold whose corners are rounded up to integers; it has more copies.
 notation::Orbifold rounded_up(const notation::Orbifold& orbifold) {
   notation::Orbifold whole = orbifold;
   for (Rational& corner : whole.corners) corner = Rational(Integer((numerator(corner) + denominator(corner) - 1) / denominator(corner)));
@@ -74,14 +77,17 @@ notation::Orbifold rounded_up(const notation::Orbifold& orbifold) {
 
 }  // namespace
 
-int default_max_bounces(const notation::Orbifold& orbifold, int level_mirrors) {
-  constexpr int kFarthest = 64;   // *237, whose copies grow most slowly, has 198 at 11
+int default_max_bounces(const notation::Orbifold& orbifold, int horizontal_mirrors) {
+  constexpr int kMaxBouncesHyperbolic = 64;   // *237, whose copies grow most slowly, has 198 at 11
   const int sign = curvature_sign(orbifold);
-  if (sign < 0) return bounces_within(notation::copies_per_length(rounded_up(orbifold), kFarthest), level_mirrors, kHyperbolicCopies);
-  if (sign == 0 || !notation::is_orbifold(orbifold)) return kUsual;
+  if (sign < 0)
+    return bounces_within(notation::copies_per_length(rounded_up(orbifold), kMaxBouncesHyperbolic), horizontal_mirrors,
+                          kMaxDefaultCopiesHyperbolic);
+  if (sign == 0 || !notation::is_orbifold(orbifold)) return kMinDefaultBounces;
   const int whole = notation::longest_length(orbifold).value();
-  if (whole <= kUsual || *notation::group_order(orbifold) <= kSphericalCopies) return std::max(kUsual, whole);
-  return bounces_within(notation::copies_per_length(orbifold, kSphericalCopies), 0, kSphericalCopies);
+  if (whole <= kMinDefaultBounces || *notation::group_order(orbifold) <= kMaxDefaultCopiesSpherical)
+    return std::max(kMinDefaultBounces, whole);
+  return bounces_within(notation::copies_per_length(orbifold, kMaxDefaultCopiesSpherical), 0, kMaxDefaultCopiesSpherical);
 }
 
 Scene default_scene(const notation::Orbifold& orbifold) {

@@ -10,7 +10,7 @@
 namespace orbc::scene {
 namespace {
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kBlockBytes = 256;
 
 bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
@@ -25,17 +25,17 @@ Locator::Locator(std::shared_ptr<const SourceText> source) : source_(std::move(s
   const std::string& text = source_->text;
   std::size_t characters = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (i % kBlock == 0) characters_.push_back(characters);
+    if (i % kBlockBytes == 0) characters_.push_back(characters);
     if (starts_character(text[i])) ++characters;
     if (text[i] == '\n') line_starts_.push_back(i + 1);
   }
-  if (text.size() % kBlock == 0) characters_.push_back(characters);
+  if (text.size() % kBlockBytes == 0) characters_.push_back(characters);
 }
 
 std::size_t Locator::characters_before(std::size_t offset) const {
   const std::string& text = source_->text;
-  std::size_t count = characters_[offset / kBlock];
-  for (std::size_t i = offset / kBlock * kBlock; i < offset; ++i) count += starts_character(text[i]);
+  std::size_t count = characters_[offset / kBlockBytes];
+  for (std::size_t i = offset / kBlockBytes * kBlockBytes; i < offset; ++i) count += starts_character(text[i]);
   return count;
 }
 

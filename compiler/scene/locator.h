@@ -18,11 +18,11 @@ class Locator {
   [[nodiscard]] SourceSpan at(std::size_t offset) const;
   /// The characters from `offset` to the next blank, comma or bracket.
   [[nodiscard]] SourceSpan token_at(std::size_t offset) const;
-  /// A scalar that starts at `offset` and means `value`: as far as it reaches on its line, with its quotes.
+  /// The scalar with the value `value` that starts at `offset`, with its quotes, up to the end of its line.
   [[nodiscard]] SourceSpan scalar_at(std::size_t offset, std::string_view value) const;
-  /// False for text that starts with a quote at `offset` and ends with the file; yaml-cpp takes it as closed.
+  /// Whether a quote at `offset` is closed before the end of the file. (yaml-cpp takes an open one as closed.)
   [[nodiscard]] bool quote_is_closed(std::size_t offset) const;
-  /// The first byte sequence that is not UTF-8 or not a printable character of YAML 1.2 (§ 5.1), as a diagnostic.
+  /// A diagnostic for the first byte sequence that is not UTF-8 or not a printable character of YAML 1.2 (§ 5.1).
   [[nodiscard]] std::optional<Diagnostic> first_bad_character() const;
 
  private:
@@ -31,7 +31,7 @@ class Locator {
 
   std::shared_ptr<const SourceText> source_;
   std::vector<std::size_t> line_starts_;
-  std::vector<std::size_t> characters_;  // before each block of kBlock bytes
+  std::vector<std::size_t> characters_;  // before each block of kBlockBytes bytes
 };
 
 }  // namespace orbc::scene

@@ -1,4 +1,4 @@
-// An override changes the document before anything of it is read: so every check, hint and warning of the reader holds for it too.
+// An override changes the document before it is read, so that all checks, hints and warnings of the reader apply to it too.
 #include "compiler/scene/override.h"
 
 #include <fmt/format.h>
@@ -8,23 +8,23 @@
 
 #include "compiler/scene/document.h"
 #include "compiler/scene/locator.h"
-#include "compiler/scene/parts.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
 
-constexpr std::size_t kDeepest = 64;               // steps of a path; scenes nest five or six deep
+constexpr std::size_t kMaxPathSteps = 64;  // steps of a path; scenes nest five or six deep
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr const char* kFormat = "write KEY=VALUE, such as camera.fov=60deg or objects.ball.at.polar=[0.2,30deg]";
 
-struct Step {
+struct PathStep {
   std::string word;
-  bool quoted = false;              // a name, never a number
+  bool quoted = false;              // never a number
   SourceSpan span;
 };
 
-struct Change {
-  std::vector<Step> path;
+struct Override {
+  std::vector<PathStep> path;
   Node value;
   bool removes = false;
 };
@@ -40,7 +40,7 @@ void relocate(Node& node, const std::shared_ptr<const SourceText>& source) {
   for (Node& item : node.items) relocate(item, source);
 }
 
-// Where the path ends: the first equal sign outside of quotes.
+// The end of the path: the first equal sign outside of quotes.
 std::size_t end_of_path(std::string_view text) {
   char quote = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -51,12 +51,12 @@ std::size_t end_of_path(std::string_view text) {
   return std::string_view::npos;
 }
 
-Result<std::vector<Step>> read_path(const Locator& locator, std::size_t end) {
-  std::vector<Step> path;
+Result<std::vector<PathStep>> read_path(const Locator& locator, std::size_t end) {
+  std::vector<PathStep> path;
   const std::string_view text = locator.text().substr(0, end);
   for (std::size_t begin = 0; begin <= text.size();) {
     while (begin < text.size() && kBlanks.find(text[begin]) != std::string_view::npos) ++begin;
-    Step step;
+    PathStep step;
     step.quoted = begin < text.size() && (text[begin] == '"' || text[begin] == '\'');
     const std::size_t closed = step.quoted ? text.find(text[begin], begin + 1) : begin;
     const std::size_t dot = std::min(text.find('.', std::min(closed, text.size())), text.size());
@@ -68,13 +68,13 @@ Result<std::vector<Step>> read_path(const Locator& locator, std::size_t end) {
     path.push_back(std::move(step));
     begin = dot + 1;
   }
-  if (path.size() > kDeepest)
-    return make_error("scene.too-deep", fmt::format("the path has more than {} steps", kDeepest), "no part of a scene nests so deep",
-                      path[kDeepest].span);
+  if (path.size() > kMaxPathSteps)
+    return make_error("scene.too-deep", fmt::format("the path has more than {} steps", kMaxPathSteps), "no part of a scene nests so deep",
+                      path[kMaxPathSteps].span);
   return path;
 }
 
-// The value as YAML. It is parsed with blanks in place of the path, so that columns are those of the argument.
+// Parses the value as YAML. Blanks replace the path, so that columns are those of the argument.
 Result<Document> read_value(const std::shared_ptr<const SourceText>& source, std::size_t begin) {
   const std::string_view text = source->text;
   const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
@@ -93,14 +93,14 @@ Result<Document> read_value(const std::shared_ptr<const SourceText>& source, std
   return parsed;
 }
 
-Result<Change> read_change(const std::shared_ptr<const SourceText>& source, Diagnostics& faults) {
+Result<Override> read_override(const std::shared_ptr<const SourceText>& source, Diagnostics& faults) {
   const Locator locator(source);
   if (auto bad = locator.first_bad_character()) return std::move(*bad);
   const std::string_view text = locator.text();
   const std::size_t equals = end_of_path(text);
   if (equals == std::string_view::npos)
     return make_error("scene.bad-override", "there is no equal sign between key and value", kFormat, locator.token_at(0));
-  Change change;
+  Override change;
   auto path = read_path(locator, equals);
   if (!path) return path.error();
   change.path = std::move(*path);
@@ -121,8 +121,8 @@ Result<Change> read_change(const std::shared_ptr<const SourceText>& source, Diag
   return change;
 }
 
-// "7" → 7; 0 for what is no number of an item.
-std::size_t item_number(const Step& step) {
+// "7" → 7; 0 for words that are no item numbers.
+std::size_t item_number(const PathStep& step) {
   const bool digits = !step.quoted && step.word.size() <= 6 && step.word[0] != '0' &&
                       step.word.find_first_not_of("0123456789") == std::string::npos;
   return digits ? std::stoul(step.word) : 0;
@@ -130,13 +130,13 @@ std::size_t item_number(const Step& step) {
 
 bool is_list(std::string_view key) { return key == "objects" || key == "lights" || key == "cuts" || key == "mirrors"; }
 
-class Walk {
+class OverrideApplier {
  public:
-  Walk(Node& root, const Change& change) : change_(change), at_(&root) {}
+  OverrideApplier(Node& root, const Override& change) : change_(change), at_(&root) {}
 
   Diagnostics run() {
     for (step_ = 0; step_ < change_.path.size() && found_.empty() && at_; ++step_) {
-      if (at_->kind == NodeKind::nothing) make_container();
+      if (at_->kind == NodeKind::null) make_container();
       if (at_->kind == NodeKind::map) through_map();
       else if (at_->kind == NodeKind::list) through_list();
       else refuse_scalar();
@@ -145,7 +145,7 @@ class Walk {
   }
 
  private:
-  [[nodiscard]] const Step& step() const { return change_.path[step_]; }
+  [[nodiscard]] const PathStep& step() const { return change_.path[step_]; }
   [[nodiscard]] bool last() const { return step_ + 1 == change_.path.size(); }
   [[nodiscard]] std::string parent() const { return step_ == 0 ? "the scene" : fmt::format("`{}`", change_.path[step_ - 1].word); }
 
@@ -159,7 +159,7 @@ class Walk {
                                   nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest), step().span));
   }
 
-  // A part that is missing, or has its key and nothing behind it. Its place is the part around it: mistakes of it are not this argument's.
+  // Creates a map or list for a key without a value. It keeps the span of the value around it, since errors there are not this override's.
   void make_container() {
     at_->kind = step_ > 0 && is_list(change_.path[step_ - 1].word) && item_number(step()) > 0 ? NodeKind::list : NodeKind::map;
   }
@@ -223,10 +223,10 @@ class Walk {
 
   void refuse_scalar() {
     error("scene.not-a-map", fmt::format("{} is `{}` here, which has no keys", parent(), at_->text.substr(0, 40)),
-          step_ == 0 ? "" : fmt::format("say all of it: {}={{{}: …}}", way(step_), step().word));
+          step_ == 0 ? "" : fmt::format("say all of it: {}={{{}: …}}", path_text(step_), step().word));
   }
 
-  [[nodiscard]] std::string way(std::size_t steps) const {
+  [[nodiscard]] std::string path_text(std::size_t steps) const {
     std::string text;
     for (std::size_t i = 0; i < steps; ++i) text += (i == 0 ? "" : ".") + change_.path[i].word;
     return text;
@@ -237,7 +237,7 @@ class Walk {
     if (last()) *at_ = change_.value;
   }
 
-  const Change& change_;
+  const Override& change_;
   Node* at_;
   std::size_t step_ = 0;
   Diagnostics found_;
@@ -254,10 +254,10 @@ OverrideSources sources_of(const Overrides& overrides) {
 Diagnostics apply_overrides(const OverrideSources& overrides, Document& document) {
   Diagnostics found;
   for (const auto& source : overrides) {
-    const Result<Change> change = read_change(source, found);
+    const Result<Override> change = read_override(source, found);
     if (!change) found.insert(found.end(), change.error().begin(), change.error().end());
     if (!change || document.root.kind != NodeKind::map) continue;  // the reader refuses a scene that is no map
-    const Diagnostics more = Walk(document.root, *change).run();
+    const Diagnostics more = OverrideApplier(document.root, *change).run();
     found.insert(found.end(), more.begin(), more.end());
   }
   return found;

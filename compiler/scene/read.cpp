@@ -1,4 +1,4 @@
-// From text to scene: the document first (read_yaml.cpp), then its parts, each in its file, then what only shows of the whole (check.cpp).
+// From text to scene: first the document (read_yaml.cpp), then its parts (read_*.cpp), then the checks of the whole scene (check.cpp).
 #include "compiler/scene/read.h"
 
 #include <fmt/format.h>
@@ -12,13 +12,13 @@
 
 #include "compiler/scene/check.h"
 #include "compiler/scene/defaults.h"
-#include "compiler/scene/orbifold_of.h"
-#include "compiler/scene/parts.h"
+#include "compiler/scene/parsed_notation.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
 
-constexpr std::size_t kMaxReported = 100;          // more errors help nobody, and printing them would take long
+constexpr std::size_t kMaxReported = 100;  // more errors help nobody and take long to print
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 void read_version(const Fields& fields) {
@@ -41,7 +41,7 @@ std::optional<notation::Orbifold> read_orbifold(const Fields& fields, bool allow
   if (!node) return std::nullopt;
   const auto text = reader.text(*node, "`orbifold`");
   if (!text) return std::nullopt;
-  OrbifoldOf read = orbifold_of(*text, allow_non_orbifold, node->span);
+  ParsedNotation read = parse_notation(*text, allow_non_orbifold, node->span);
   reader.diagnostics.insert(reader.diagnostics.end(), read.diagnostics.begin(), read.diagnostics.end());
   return read.orbifold;
 }
@@ -52,7 +52,7 @@ Node empty_map() {
   return node;
 }
 
-int level_mirrors(const RoomSpec& room) { return (room.floor.mirror ? 1 : 0) + (room.ceiling.mirror ? 1 : 0); }
+int horizontal_mirrors(const RoomSpec& room) { return (room.floor.mirror ? 1 : 0) + (room.ceiling.mirror ? 1 : 0); }
 
 Scene read_root(Reader& reader, const Node& root) {
   Scene scene;
@@ -67,10 +67,10 @@ Scene read_root(Reader& reader, const Node& root) {
   if (auto orbifold = read_orbifold(fields, scene.allow_non_orbifold)) {
     scene.orbifold = std::move(*orbifold);
     scene.orbifold_span = fields.find("orbifold")->span;
-    facts = facts_of(scene.orbifold);
+    facts = room_facts(scene.orbifold);
   }
-  const Node nothing_said = empty_map();
-  const auto part = [&](std::string_view key) -> const Node& { return fields.has(key) ? *fields.find(key) : nothing_said; };
+  const Node empty = empty_map();
+  const auto part = [&](std::string_view key) -> const Node& { return fields.has(key) ? *fields.find(key) : empty; };
   scene.room = read_room(reader, part("room"), facts);
   if (fields.has("objects")) scene.objects = read_objects(reader, part("objects"), facts);
   if (fields.has("lights")) scene.lamps = read_lamps(reader, part("lights"), facts);
@@ -80,7 +80,7 @@ Scene read_root(Reader& reader, const Node& root) {
       fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
   scene.camera = read_camera(reader, part("camera"), facts);
-  if (scene.orbifold_span.source) scene.cover.max_bounces = default_max_bounces(scene.orbifold, level_mirrors(scene.room));
+  if (scene.orbifold_span.source) scene.cover.max_bounces = default_max_bounces(scene.orbifold, horizontal_mirrors(scene.room));
   scene.cover = read_cover(reader, part("cover"), scene.cover);
   balance_white(fields, scene);
   return scene;
@@ -93,7 +93,8 @@ void add_given_keys(const Node& map, const std::string& before, std::vector<Give
   }
 }
 
-// The order of the file, so that an author can work from top to bottom, then that of the overrides; errors that have no place come first.
+// Sorts by the order of the file, so that an author can work from top to bottom, then by the order of the overrides. Errors without a span
+// come first.
 void sort_by_place(Diagnostics& diagnostics, const OverrideSources& overrides) {
   const auto place = [&](const Diagnostic& d) {
     const auto found = std::find(overrides.begin(), overrides.end(), d.span.source);
@@ -102,7 +103,7 @@ void sort_by_place(Diagnostics& diagnostics, const OverrideSources& overrides) {
   std::stable_sort(diagnostics.begin(), diagnostics.end(), [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
 }
 
-// What stands in the way of an override is in the file, where it need not be changed.
+// The value that conflicts with an override is in the file, which need not be changed.
 void hint_at_removal(Diagnostics& diagnostics, const OverrideSources& overrides) {
   for (Diagnostic& d : diagnostics)
     if (d.code == "scene.conflict" && std::find(overrides.begin(), overrides.end(), d.span.source) != overrides.end())
@@ -121,7 +122,7 @@ Diagnostics limited(Diagnostics diagnostics, const OverrideSources& overrides) {
 
 bool is_error(const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }
 
-// What paths in a scene are relative to. A pipe (`orbc check <(…)` is /dev/fd/63) has no folder of its own: whoever filled it stands here.
+// The folder to which paths in a scene are relative. A pipe (`orbc check <(…)` is /dev/fd/63) belongs to the current folder.
 std::string folder_of(const std::filesystem::path& path) {
   std::error_code error;
   const std::string text = path.string();
@@ -129,17 +130,18 @@ std::string folder_of(const std::filesystem::path& path) {
   return device || !std::filesystem::is_regular_file(path, error) ? "." : path.parent_path().string();
 }
 
-Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& instead) {
-  const OverrideSources overrides = sources_of(instead);
+// In: a text without a byte order mark.
+Result<ReadResult> read_without_bom(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& texts) {
+  const OverrideSources overrides = sources_of(texts);
   Result<Document> document = parse_document(source);
   if (!document) return document.error();
   Reader reader;
   reader.diagnostics = std::move(document->faults);
   Diagnostics faults = apply_overrides(overrides, *document);
   std::move(faults.begin(), faults.end(), std::back_inserter(reader.diagnostics));
-  Read read{read_root(reader, document->root), {}};
+  ReadResult read{read_root(reader, document->root), {}};
   read.scene.folder = folder;
-  add_given_keys(document->root, "", read.scene.given);
+  add_given_keys(document->root, "", read.scene.given_keys);
   if (std::none_of(reader.diagnostics.begin(), reader.diagnostics.end(), is_error) || read.scene.orbifold_span.source) {
     Diagnostics found = check(read.scene);
     std::move(found.begin(), found.end(), std::back_inserter(reader.diagnostics));
@@ -153,23 +155,24 @@ Result<Read> read_marked(const std::shared_ptr<const SourceText>& source, const 
 
 }  // namespace
 
-RoomFacts facts_of(const notation::Orbifold& orbifold) {
+RoomFacts room_facts(const notation::Orbifold& orbifold) {
   const bool right_angles = std::all_of(orbifold.corners.begin(), orbifold.corners.end(), [](const Rational& k) { return k == 2; });
   return {wall_count(orbifold), corner_count(orbifold), orbifold, curvature_sign(orbifold) == 0,
           orbifold.corners.size() == 4 && right_angles};
 }
 
-Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& overrides) {
+Result<ReadResult> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& overrides) {
   const std::string& text = source->text;
-  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_marked(source, folder, overrides);
-  return read_marked(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder, overrides);
+  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_without_bom(source, folder, overrides);
+  return read_without_bom(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder,
+                          overrides);
 }
 
-Result<Read> read_scene(const SourceText& source, const std::string& folder, const Overrides& overrides) {
+Result<ReadResult> read_scene(const SourceText& source, const std::string& folder, const Overrides& overrides) {
   return read_scene(std::make_shared<const SourceText>(source), folder, overrides);
 }
 
-Result<Read> load_scene(const std::string& path, const Overrides& overrides) {
+Result<ReadResult> load_scene(const std::string& path, const Overrides& overrides) {
   const auto cannot_read = [&](const std::string& why) {
     return make_error("scene.cannot-read", fmt::format("cannot read the scene {}: {}", path, why),
                       "give the path of a scene file; `orbc new '*2323'` writes one");

@@ -9,26 +9,26 @@
 
 namespace orbc::scene {
 
-/// A scene that can be built, and what its author may still want to know.
-struct Read {
+/// A scene, and warnings and notes to its author.
+struct ReadResult {
   Scene scene;
-  Diagnostics notes;                ///< warnings and notes, in the order of the file
+  Diagnostics notes;                ///< in the order of the file
 };
 
-/// Reads a scene file's text. Never crashes, hangs or overflows the stack, whatever the text is; all mistakes of a file are reported at
-/// once, in the order of the file (a YAML mistake alone, since nothing after it can be trusted; at most 100).
-/// In:          the text with its name for messages; `folder` = what paths of meshes and textures are relative to;
-///              `overrides` = what is said instead of the text: checked like it, and placed where it was said.
-/// Makes:       a scene with every default filled in: as many walls as the notation has, one name per object.
-/// Diagnostics: scene.* (schema/diagnostics.md), notation.* placed at the notation.
-/// Not promised: that files exist, or that things stand inside the room: that takes geometry.
-[[nodiscard]] Result<Read> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder = {},
+/// Reads the text of a scene file, in bounded time, memory and stack for any text. All errors of a file are reported together, in the order
+/// of the file, at most 100. A YAML error is reported alone, because the text after it cannot be parsed. In:          the text and its name
+/// for messages; `folder`, to which paths of meshes and textures are relative; `overrides`, which are
+///              checked like the text, with diagnostics placed in the overrides.
+/// Makes:       a scene with all defaults: one entry per wall of the notation, and one name per object.
+/// Diagnostics: scene.* (schema/diagnostics.md), and notation.* placed at the notation.
+/// Not promised: that files exist, or that objects lie inside the room.
+[[nodiscard]] Result<ReadResult> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder = {},
                                       const Overrides& overrides = {});
-[[nodiscard]] Result<Read> read_scene(const SourceText& source, const std::string& folder = {}, const Overrides& overrides = {});
+[[nodiscard]] Result<ReadResult> read_scene(const SourceText& source, const std::string& folder = {}, const Overrides& overrides = {});
 
-/// Reads a scene from a file; its folder is the scene's folder, of a pipe the current one. Reads no more than a scene may have, even from
-/// /dev/zero.
+/// Reads a scene from a file. The folder of the file is the scene's folder; for a pipe it is the current folder. Stops at the size limit of
+/// scenes, so that /dev/zero ends.
 /// Diagnostics: scene.cannot-read, and those of `read_scene`.
-[[nodiscard]] Result<Read> load_scene(const std::string& path, const Overrides& overrides = {});
+[[nodiscard]] Result<ReadResult> load_scene(const std::string& path, const Overrides& overrides = {});
 
 }  // namespace orbc::scene

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "compiler/scene/parts.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
@@ -58,7 +58,7 @@ Pattern pattern_named(std::string_view name) {
   return name == "checker" ? Pattern::checker : name == "marble" ? Pattern::marble : name == "wood" ? Pattern::wood : Pattern::granite;
 }
 
-// `checker: [a, b]`, `texture: path` or `pattern: checker`: at most one, and what it says of the colours.
+// Reads `checker: [a, b]`, `texture: path` or `pattern: checker`, at most one of them, with its colours.
 void read_pattern(const Fields& fields, Material& material) {
   Reader& reader = fields.reader();
   const std::string key = fields.only_one_of(pattern_keys());
@@ -89,9 +89,9 @@ void read_pattern(const Fields& fields, Material& material) {
   material.second = reader.color(node.items[1], "the second colour", material.second);
 }
 
-// Holes: of what is opaque, in one colour or a picture.
+// Reads `opacity_mask` and `cutoff`. Only opaque materials with one colour or a texture can have a mask.
 void read_mask(const Fields& fields, Material& material) {
-  material.cutoff = fields.number("cutoff", material.cutoff, kUnit);
+  material.alpha_cutoff = fields.number("cutoff", material.alpha_cutoff, kUnit);
   const Node* node = fields.find("opacity_mask");
   if (!node) return fields.no_effect("cutoff", "it says where an `opacity_mask` has holes, and there is none");
   Reader& reader = fields.reader();
@@ -115,7 +115,7 @@ void warn_unused_keys(const Fields& fields, const Material& material) {
   if (plain || material.pattern == Pattern::texture) fields.no_effect("second", "it is the other colour of a pattern, and there is none");
 }
 
-void read_own_keys(const Fields& fields, Material& material) {
+void read_keys(const Fields& fields, Material& material) {
   material.kind = fields.choice<MaterialKind>("kind", material.kind,
                                               {{"matte", MaterialKind::matte},
                                                {"glossy", MaterialKind::glossy},
@@ -192,7 +192,7 @@ Material read_material_keys(const Fields& fields, const Material& base) {
     if (const auto preset = node->kind == NodeKind::scalar ? preset_material(node->text) : std::nullopt) material = *preset;
     else reader.unknown_value(*node, "`preset`", preset_names());
   }
-  read_own_keys(fields, material);
+  read_keys(fields, material);
   material.span = fields.node().span;
   return material;
 }
@@ -203,7 +203,7 @@ Material read_material(Reader& reader, const Node& node, const std::string& what
   else if (node.kind == NodeKind::list) material.color = reader.color(node, what, base.color);
   else {
     std::vector<std::string> keys = material_keys();
-    keys.erase(keys.begin());  // `material` inside `material` is none
+    keys.erase(keys.begin());  // `material` is no key inside `material`
     material = read_material_keys(Fields(reader, node, what, keys), base);
   }
   material.span = node.span;

@@ -1,11 +1,11 @@
-// Objects: each is a mesh file or a primitive, at a place.
+// Objects: each is a mesh file or a primitive at a place.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "compiler/scene/parts.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
@@ -77,15 +77,15 @@ TorusKnotSpec read_torus_knot(Reader& reader, const Node& node) {
   return knot;
 }
 
-BeamSpec read_beam(Reader& reader, const Node& node, const RoomFacts& facts) {
-  BeamSpec beam;
+BarSpec read_bar(Reader& reader, const Node& node, const RoomFacts& facts) {
+  BarSpec bar;
   const Fields fields(reader, node, "a beam", {"from", "to", "width"});
   fields.require("from", "write {from: {…}, to: {…}}");
   fields.require("to", "write {from: {…}, to: {…}}");
-  if (const Node* from = fields.find("from")) beam.from = read_place(reader, *from, "`from`", facts);
-  if (const Node* to = fields.find("to")) beam.to = read_place(reader, *to, "`to`", facts);
-  beam.width = fields.number("width", beam.width, kLength);
-  return beam;
+  if (const Node* from = fields.find("from")) bar.from = read_place(reader, *from, "`from`", facts);
+  if (const Node* to = fields.find("to")) bar.to = read_place(reader, *to, "`to`", facts);
+  bar.width = fields.number("width", bar.width, kLength);
+  return bar;
 }
 
 void read_shape(const Fields& fields, const std::string& key, const RoomFacts& facts, Object& object) {
@@ -111,7 +111,7 @@ void read_shape(const Fields& fields, const std::string& key, const RoomFacts& f
   } else if (key == "torus_knot") {
     object.shape = read_torus_knot(reader, node);
   } else if (key == "beam") {
-    object.shape = read_beam(reader, node, facts);
+    object.shape = read_bar(reader, node, facts);
   }
 }
 
@@ -124,15 +124,15 @@ void read_material_of(const Fields& fields, Object& object) {
   object.material->span = fields.find("color")->span;
 }
 
-// Factors so small that nothing is left of a mesh, and 0, are refused.
+// Factors of 0, and factors so small that a mesh would vanish, are errors.
 void read_scale(Reader& reader, const Node& node, Object& object) {
-  constexpr double kSmallest = 1e-6;
+  constexpr double kMinScaleFactor = 1e-6;
   const std::size_t before = reader.diagnostics.size();
   object.scale = reader.numbers<3>(node, "`scale`", object.scale, {-kMaxLength, kMaxLength}, "a list of three factors: [x, y, z]");
   if (reader.diagnostics.size() > before) return;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (std::abs(object.scale[i]) >= kSmallest) continue;
-    reader.error("scene.out-of-range", node.items[i].span, fmt::format("a factor of `scale` must not be 0, nor below {}", kSmallest),
+    if (std::abs(object.scale[i]) >= kMinScaleFactor) continue;
+    reader.error("scene.out-of-range", node.items[i].span, fmt::format("a factor of `scale` must not be 0, nor below {}", kMinScaleFactor),
                  "1 leaves a length as it is, -1 makes a mirror image");
     object.scale[i] = 1;
   }
@@ -143,7 +143,7 @@ void read_rotate(Reader& reader, const Node& node, Object& object) {
   for (std::size_t i = 0; i < 3; ++i) object.rotate[i] = reader.angle(node.items[i], "the angle", {});
 }
 
-// Which way up, how large, how tilted: all that happens to a mesh before it stands.
+// Reads `up`, `scale` and `rotate`.
 void read_pose(const Fields& fields, Object& object) {
   const auto* mesh = std::get_if<MeshFile>(&object.shape);
   const std::string ending = mesh ? split(mesh->path.value).ending : "";
@@ -154,8 +154,8 @@ void read_pose(const Fields& fields, Object& object) {
   if (const Node* rotate = fields.find("rotate")) read_rotate(fields.reader(), *rotate, object);
 }
 
-// A beam lies where its ends are.
-void refuse_pose_of_beam(const Fields& fields) {
+// A bar (key `beam`) is placed by its ends alone.
+void refuse_pose_of_bar(const Fields& fields) {
   for (const char* key : {"up", "scale", "rotate"})
     if (fields.has(key))
       fields.reader().error("scene.conflict", fields.key_span(key), fmt::format("a beam has no `{}`: it reaches from `from` to `to`", key),
@@ -174,8 +174,11 @@ Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
     reader.error("scene.missing-key", node.span, "an object needs one of the keys " + listed(shape_keys()),
                  "write - mesh: meshes/statue.obj or - sphere: {radius: 0.1}");
   if (!shape.empty()) read_shape(fields, shape, facts, object);
-  if (const Node* size = fields.find("size")) object.size = fields.number("size", 1, kLength), object.size_span = size->span;
-  // Bodies of stated lengths keep them: along straight lines from their axis every length is true.
+  if (const Node* size = fields.find("size")) {
+    object.size = fields.number("size", 1, kLength);
+    object.size_span = size->span;
+  }
+  // The exponential embedding preserves lengths along straight lines from the axis, as the primitives' dimensions are meant.
   object.embedding = fields.choice<Embedding>("embedding", shape == "mesh" ? Embedding::conformal : Embedding::exponential,
                                               {{"conformal", Embedding::conformal}, {"exponential", Embedding::exponential}});
   read_pose(fields, object);
@@ -183,7 +186,7 @@ Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
   else object.place.span = node.span;
   object.turn = fields.angle("turn", {});
   read_material_of(fields, object);
-  if (shape == "beam") refuse_pose_of_beam(fields);
+  if (shape == "beam") refuse_pose_of_bar(fields);
   const auto* mesh = std::get_if<MeshFile>(&object.shape);
   object.name = mesh ? split(mesh->path.value).stem : shape;
   const Node* name = fields.find("name");
@@ -193,7 +196,7 @@ Object read_object(Reader& reader, const Node& node, const RoomFacts& facts) {
   return object;
 }
 
-// Given names must differ from each other; the others get out of their way: "sphere", "sphere-2", …
+// Given names must be different. Other names avoid them: "sphere", "sphere-2", …
 void make_names_unique(Reader& reader, std::vector<Object>& objects) {
   std::map<std::string, SourceSpan> taken = {{"centre", {}}, {"center", {}}};
   for (const Object& object : objects) {
@@ -229,8 +232,8 @@ std::vector<std::string> object_names(const Node& node) {
     object.name = name->text;
     object.name_span = name->span;
   }
-  Reader unheard;
-  make_names_unique(unheard, objects);
+  Reader discarded;
+  make_names_unique(discarded, objects);
   std::vector<std::string> names;
   for (const Object& object : objects) names.push_back(object.name);
   return names;

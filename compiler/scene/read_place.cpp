@@ -2,15 +2,15 @@
 // with an optional z.
 #include <fmt/format.h>
 
-#include "compiler/scene/parts.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
 
-constexpr const char* kPlaces =
+constexpr const char* kPlaceForms =
     "centre, {xy: [x, y]}, {disk: [x, y]}, {polar: [r, 30deg]}, {toward: corner 2, distance: 0.3} or {walls: {1: 0.3, 2: 0.4}}";
 
-// "7" → 7; 0 for what is no wall or corner number at all.
+// "7" → 7; 0 for words that are no wall or corner numbers.
 int positive_integer(std::string_view digits) {
   if (digits.empty() || digits.size() > 6 || digits[0] == '0') return 0;
   int value = 0;
@@ -63,7 +63,9 @@ AtWalls read_at_walls(Reader& reader, const Node& node, const RoomFacts& facts) 
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const int wall = read_wall_number(reader, node.keys[i], facts);
     const double distance = reader.number(node.items[i], fmt::format("the distance from wall {}", wall), 0, kDistance);
-    if (i < 2) at.walls[i] = wall, at.distances[i] = distance;
+    if (i >= 2) continue;
+    at.walls[i] = wall;
+    at.distances[i] = distance;
   }
   return at;
 }
@@ -95,11 +97,11 @@ Place read_place(Reader& reader, const Node& node, const std::string& what, cons
   place.span = node.span;
   if (node.kind == NodeKind::scalar) {
     if (node.text != "centre" && node.text != "center")
-      reader.error("scene.bad-place", node.span, fmt::format("{} must be a place", what), std::string("places are ") + kPlaces);
+      reader.error("scene.bad-place", node.span, fmt::format("{} must be a place", what), std::string("places are ") + kPlaceForms);
     return place;
   }
   if (node.kind != NodeKind::map) {
-    reader.wrong_type(node, what, "a place", std::string("places are ") + kPlaces);
+    reader.wrong_type(node, what, "a place", std::string("places are ") + kPlaceForms);
     return place;
   }
   const Fields fields(reader, node, what, {"xy", "disk", "polar", "toward", "distance", "walls", "z"});
@@ -122,7 +124,8 @@ Place read_place(Reader& reader, const Node& node, const std::string& what, cons
                  "write {toward: corner 2, distance: 0.3}");
   if (fields.has("z")) place.z = fields.number("z", 0, kDistance);
   else if (kind.empty() && fields.is_map() && node.keys.empty())
-    reader.error("scene.bad-place", node.span, fmt::format("{} must be a place, but is empty", what), std::string("places are ") + kPlaces);
+    reader.error("scene.bad-place", node.span, fmt::format("{} must be a place, but is empty", what),
+                 std::string("places are ") + kPlaceForms);
   return place;
 }
 

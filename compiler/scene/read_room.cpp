@@ -1,10 +1,10 @@
-// The room: shape, height, floor, ceiling, and walls, where `all` is said first and a wall's own entry replaces what it facts.
+// The room: shape, height, floor, ceiling and walls. A wall's own entry replaces the values of the entry `all`.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "compiler/scene/defaults.h"
-#include "compiler/scene/parts.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
@@ -14,7 +14,7 @@ std::vector<std::string> with_material_keys(std::vector<std::string> keys) {
   return keys;
 }
 
-constexpr const char* kShowWall = "`mirror: none` makes the wall plain, `span` and `height` make the mirror smaller";
+constexpr const char* kPlainWallHint = "`mirror: none` makes the wall plain, `span` and `height` make the mirror smaller";
 
 bool is_none(const Node& node) { return node.kind == NodeKind::scalar && node.text == "none"; }
 
@@ -55,20 +55,30 @@ std::map<int, double> read_lengths(Reader& reader, const Node& node, const RoomF
   return lengths;
 }
 
-// What means nothing in this room is a warning and left out of the scene: so one furnishing can be tried in many rooms.
-void drop_unused(const Fields& room, const RoomFacts& facts, Shape& shape) {
+// Keys that have no effect in this room give a warning and are reset to their defaults, so that one scene can be tried with many notations.
+void reset_unused_keys(const Fields& room, const RoomFacts& facts, Shape& shape) {
   const Shape standard;
   if (!facts.flat)
-    room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius"),
-        shape.scale = standard.scale;
-  if (!facts.rectangle) room.no_effect("aspect", "only `*2222` may be stretched"), shape.aspect = standard.aspect;
-  if (!facts.orbifold.strip)
-    room.no_effect("length", "it belongs to the strips `**` and `*22∞`"), shape.strip_length = standard.strip_length;
+  {
+    room.no_effect("scale", "in spherical and hyperbolic rooms the angles fix all lengths; the unit is the curvature radius");
+    shape.scale = standard.scale;
+  }
+  if (!facts.rectangle) {
+    room.no_effect("aspect", "only `*2222` may be stretched");
+    shape.aspect = standard.aspect;
+  }
+  if (!facts.orbifold.strip) {
+    room.no_effect("length", "it belongs to the strips `**` and `*22∞`");
+    shape.strip_length = standard.strip_length;
+  }
   if (shape.kind != ShapeKind::paper) {
     for (const char* key : {"cut", "cuts"}) room.no_effect(key, "it belongs to `shape: paper`");
     shape.cuts.clear();
   }
-  if (shape.kind != ShapeKind::lengths) room.no_effect("lengths", "it belongs to `shape: lengths`"), shape.lengths.clear();
+  if (shape.kind != ShapeKind::lengths) {
+    room.no_effect("lengths", "it belongs to `shape: lengths`");
+    shape.lengths.clear();
+  }
 }
 
 Shape read_shape(const Fields& room, const RoomFacts& facts) {
@@ -82,20 +92,21 @@ Shape read_shape(const Fields& room, const RoomFacts& facts) {
   shape.scale = room.number("scale", shape.scale, kLength);
   shape.aspect = room.number("aspect", shape.aspect, {0.001, 1000});
   shape.strip_length = room.number("length", shape.strip_length, kLength);
-  if (facts.walls > 0) drop_unused(room, facts, shape);
+  if (facts.walls > 0) reset_unused_keys(room, facts, shape);
   if (shape.kind == ShapeKind::lengths) room.require("lengths", "give the side lengths of all walls but three: lengths: {1: 0.8, 2: 1.1}");
   return shape;
 }
 
-struct MirrorDraft {
+// A mirror as given in the file.
+struct MirrorEntry {
   Mirror mirror;
-  bool frame_given = false;         // `frame: none` at a mirror beats the frame of its wall
+  bool frame_given = false;         // then the wall's frame is not used, even with `frame: none`
 };
 
-// What was said of a wall; what was not said is left to `all` and to the defaults.
-struct WallDraft {
+// The keys of a wall as given in the file; the others come from `all` and the defaults.
+struct WallEntry {
   std::optional<Material> material;
-  std::optional<std::vector<MirrorDraft>> mirrors;
+  std::optional<std::vector<MirrorEntry>> mirrors;
   std::optional<std::optional<Frame>> frame;
   SourceSpan span;
 };
@@ -119,25 +130,28 @@ std::optional<std::array<double, 2>> read_interval(const Fields& fields, const c
   return std::nullopt;
 }
 
-MirrorDraft read_mirror(Reader& reader, const Node& node, bool on_wall) {
-  MirrorDraft draft;
-  Mirror& mirror = draft.mirror;
-  mirror.source = node.span;
+MirrorEntry read_mirror(Reader& reader, const Node& node, bool on_wall) {
+  MirrorEntry entry;
+  Mirror& mirror = entry.mirror;
+  mirror.span = node.span;
   const std::vector<std::string> keys = {"reflectance", "tint", "glow", "span", "height", "frame"};
   const Fields fields(reader, node, on_wall ? "a mirror" : "a mirror on floor or ceiling",
                       {keys.begin(), keys.begin() + (on_wall ? 6 : 3)});
   mirror.reflectance = fields.number("reflectance", mirror.reflectance, kUnit);
   mirror.tint = fields.color("tint", mirror.tint);
-  mirror.glow = fields.color("glow", mirror.glow);
-  if (!on_wall) return draft;
-  mirror.span = read_interval(fields, "span", "a list of two lengths along the wall, from its first corner: [0.1, 0.5]");
+  mirror.emission = fields.color("glow", mirror.emission);
+  if (!on_wall) return entry;
+  mirror.arc = read_interval(fields, "span", "a list of two lengths along the wall, from its first corner: [0.1, 0.5]");
   mirror.height = read_interval(fields, "height", "a list of two heights above the floor: [0.2, 0.9]");
-  if (const Node* frame = fields.find("frame")) mirror.frame = read_frame(reader, *frame), draft.frame_given = true;
-  return draft;
+  if (const Node* frame = fields.find("frame")) {
+    mirror.frame = read_frame(reader, *frame);
+    entry.frame_given = true;
+  }
+  return entry;
 }
 
-std::vector<MirrorDraft> read_mirrors(Reader& reader, const Node& node) {
-  std::vector<MirrorDraft> mirrors;
+std::vector<MirrorEntry> read_mirrors(Reader& reader, const Node& node) {
+  std::vector<MirrorEntry> mirrors;
   if (is_none(node)) return mirrors;
   if (node.kind != NodeKind::list) {
     reader.wrong_type(node, "`mirrors`", "a list of mirrors", "one mirror alone is `mirror: {…}`");
@@ -147,8 +161,8 @@ std::vector<MirrorDraft> read_mirrors(Reader& reader, const Node& node) {
   return mirrors;
 }
 
-WallDraft read_wall(Reader& reader, const Node& node, const std::string& what) {
-  WallDraft wall;
+WallEntry read_wall(Reader& reader, const Node& node, const std::string& what) {
+  WallEntry wall;
   wall.span = node.span;
   const Fields fields(reader, node, what, with_material_keys({"mirror", "mirrors", "frame"}));
   if (has_material_key(fields)) wall.material = read_material_keys(fields, default_wall(false).material);
@@ -164,75 +178,75 @@ WallDraft read_wall(Reader& reader, const Node& node, const std::string& what) {
   return wall;
 }
 
-// Nothing of the wall's own material is seen.
-bool hidden_by_mirror(const Wall& wall) { return wall.mirrors.size() == 1 && !wall.mirrors[0].span && !wall.mirrors[0].height; }
+// Whether one mirror covers all of the wall, so that its material is not visible.
+bool is_hidden_by_mirror(const Wall& wall) { return wall.mirrors.size() == 1 && !wall.mirrors[0].arc && !wall.mirrors[0].height; }
 
 bool overlap(const std::optional<std::array<double, 2>>& a, const std::optional<std::array<double, 2>>& b) {
   return !a || !b || ((*a)[0] < (*b)[1] && (*b)[0] < (*a)[1]);
 }
 
-void check_mirrors(Reader& reader, const std::vector<MirrorDraft>& mirrors, double height) {
+void check_mirrors(Reader& reader, const std::vector<MirrorEntry>& mirrors, double height) {
   for (std::size_t i = 0; i < mirrors.size(); ++i) {
     const Mirror& mirror = mirrors[i].mirror;
     if (mirror.height && (*mirror.height)[0] >= height)
-      reader.error("scene.above-ceiling", mirror.source,
+      reader.error("scene.above-ceiling", mirror.span,
                    fmt::format("this mirror starts at height {}, but the room is only {} high", (*mirror.height)[0], height));
     else if (mirror.height && (*mirror.height)[1] > height)
       reader.warning(
-          "scene.cut-off", mirror.source,
+          "scene.cut-off", mirror.span,
           fmt::format("this mirror reaches up to {}, but the room is only {} high: it is cut off there", (*mirror.height)[1], height));
     for (std::size_t j = 0; j < i; ++j)
-      if (const Mirror& other = mirrors[j].mirror; overlap(mirror.span, other.span) && overlap(mirror.height, other.height)) {
-        reader.error("scene.mirrors-overlap", mirror.source, fmt::format("this mirror overlaps the one of line {}", other.source.line),
+      if (const Mirror& other = mirrors[j].mirror; overlap(mirror.arc, other.arc) && overlap(mirror.height, other.height)) {
+        reader.error("scene.mirrors-overlap", mirror.span, fmt::format("this mirror overlaps the one of line {}", other.span.line),
                      "move one of them: mirrors of a wall may touch, not overlap");
         break;
       }
   }
 }
 
-Wall merged(const WallDraft& all, const WallDraft* own, bool end) {
+Wall merge_wall_entries(const WallEntry& all, const WallEntry* own, bool end) {
   Wall wall = default_wall(end);
   wall.span = own ? own->span : all.span;
-  for (const WallDraft* draft : {&all, own}) {
-    if (!draft) continue;
-    if (draft->material) wall.material = *draft->material;
+  for (const WallEntry* entry : {&all, own}) {
+    if (!entry) continue;
+    if (entry->material) wall.material = *entry->material;
   }
-  const std::vector<MirrorDraft> standard = [&] {
-    std::vector<MirrorDraft> drafts;
-    for (Mirror& mirror : wall.mirrors) drafts.push_back({std::move(mirror), false});
-    return drafts;
+  const std::vector<MirrorEntry> standard = [&] {
+    std::vector<MirrorEntry> entrys;
+    for (Mirror& mirror : wall.mirrors) entrys.push_back({std::move(mirror), false});
+    return entrys;
   }();
   const auto& mirrors = own && own->mirrors ? *own->mirrors : all.mirrors && !end ? *all.mirrors : standard;
   const auto& frame = own && own->frame ? own->frame : all.frame;
   wall.mirrors.clear();
-  for (const MirrorDraft& draft : mirrors) {
-    wall.mirrors.push_back(draft.mirror);
-    if (!draft.frame_given && frame) wall.mirrors.back().frame = *frame;
+  for (const MirrorEntry& entry : mirrors) {
+    wall.mirrors.push_back(entry.mirror);
+    if (!entry.frame_given && frame) wall.mirrors.back().frame = *frame;
   }
   return wall;
 }
 
-void check_wall(Reader& reader, const Node* own, const WallDraft* draft, const Wall& wall, const RoomFacts& facts, int number,
+void check_wall(Reader& reader, const Node* own, const WallEntry* entry, const Wall& wall, const RoomFacts& facts, int number,
                 double height) {
   if (!own || own->kind != NodeKind::map) return;
-  if (is_end_wall(facts.orbifold, number) && draft->mirrors && !draft->mirrors->empty()) {
+  if (is_end_wall(facts.orbifold, number) && entry->mirrors && !entry->mirrors->empty()) {
     const bool half = notation::is_half_strip(facts.orbifold);
     reader.error("scene.end-wall-mirror", own->span,
                  fmt::format("wall {} closes the {} and cannot be a mirror", number, half ? "half strip `*22∞`" : "strip `**`"),
                  half ? "only walls 1, 2 and 4 of `*22∞` are mirrors; `*2222` has mirrors on all four"
                       : "only walls 1 and 3 of `**` are mirrors; `*22∞` has a third one across, `*2222` mirrors on all four");
   }
-  if (draft->material && hidden_by_mirror(wall))
-    reader.warning("scene.no-effect", draft->material->span,
-                   fmt::format("nothing is seen of the material of wall {}: a mirror covers all of it", number), kShowWall);
-  if (draft->frame && *draft->frame && wall.mirrors.empty())
+  if (entry->material && is_hidden_by_mirror(wall))
+    reader.warning("scene.no-effect", entry->material->span,
+                   fmt::format("nothing is seen of the material of wall {}: a mirror covers all of it", number), kPlainWallHint);
+  if (entry->frame && *entry->frame && wall.mirrors.empty())
     reader.warning("scene.no-effect", own->span, fmt::format("wall {} has a frame but no mirror", number), "remove the frame");
-  if (draft->mirrors) check_mirrors(reader, *draft->mirrors, height);
+  if (entry->mirrors) check_mirrors(reader, *entry->mirrors, height);
 }
 
 std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& facts, double height) {
-  WallDraft all;
-  std::map<int, std::pair<const Node*, WallDraft>> own;
+  WallEntry all;
+  std::map<int, std::pair<const Node*, WallEntry>> own;
   if (node && node->kind != NodeKind::map)
     reader.wrong_type(*node, "`walls`", "a map", "its keys are `all` and wall numbers: walls: {all: {…}, 2: {…}}");
   else if (node) {
@@ -249,22 +263,23 @@ std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& 
   for (int number = 1; number <= facts.walls; ++number) {
     const auto found = own.find(number);
     const Node* own_node = found == own.end() ? nullptr : found->second.first;
-    const WallDraft* draft = own_node ? &found->second.second : nullptr;
-    walls.push_back(merged(all, draft, is_end_wall(facts.orbifold, number)));
-    check_wall(reader, own_node, draft, walls.back(), facts, number, height);
+    const WallEntry* entry = own_node ? &found->second.second : nullptr;
+    walls.push_back(merge_wall_entries(all, entry, is_end_wall(facts.orbifold, number)));
+    check_wall(reader, own_node, entry, walls.back(), facts, number, height);
   }
-  if (all.material && facts.walls > 0 && std::all_of(walls.begin(), walls.end(), hidden_by_mirror))
+  if (all.material && facts.walls > 0 && std::all_of(walls.begin(), walls.end(), is_hidden_by_mirror))
     reader.warning("scene.no-effect", all.material->span, "nothing is seen of the material of the walls: mirrors cover all of them",
-                   kShowWall);
+                   kPlainWallHint);
   return walls;
 }
 
 // `floor: {cell: 0.5}` changes the default checker, `floor: {color: tan}` replaces it.
 const Material& base_of_surface(const Fields& fields, const Surface& fallback) {
-  static const std::vector<std::string> kKept = {"second", "cell", "kind", "roughness", "index", "emission"};
+  static const std::vector<std::string> kStyleKeys = {"second", "cell", "kind", "roughness", "index", "emission"};
   static const Material kPlain;
-  const bool kept = std::all_of(fields.node().keys.begin(), fields.node().keys.end(),
-                                [](const Node& key) { return std::find(kKept.begin(), kKept.end(), key.text) != kKept.end(); });
+  const bool kept = std::all_of(fields.node().keys.begin(), fields.node().keys.end(), [](const Node& key) {
+    return std::find(kStyleKeys.begin(), kStyleKeys.end(), key.text) != kStyleKeys.end();
+  });
   return kept ? fallback.material : kPlain;
 }
 

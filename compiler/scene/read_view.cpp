@@ -1,7 +1,7 @@
-// Lamps, camera and cover: what lights the room and how it is seen.
+// Lamps, camera, bake and cover.
 #include <fmt/format.h>
 
-#include "compiler/scene/parts.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
@@ -62,7 +62,7 @@ std::variant<LookAtObject, Place, LookDirection> read_look_at(Reader& reader, co
   if (!node.find("azimuth") && !node.find("elevation")) {
     const std::size_t before = reader.diagnostics.size();
     const Place place = read_place(reader, node, "`look_at`", facts);
-    if (reader.diagnostics.size() > before) return LookDirection{};  // no follow-on mistakes from a place that is none
+    if (reader.diagnostics.size() > before) return LookDirection{};  // so that a wrong place gives no further errors
     return place;
   }
   const Fields fields(reader, node, "a direction of view", {"azimuth", "elevation"});
@@ -129,10 +129,13 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
     fields.no_effect("roll", "a picture all around keeps its horizon level");
     fields.no_effect("lens", "only a perspective camera has one");
   }
-  if (const Node* size = fields.find("size")) camera.size_span = size->span, camera.size = read_picture_size(reader, *size, camera.size);
+  if (const Node* size = fields.find("size")) {
+    camera.size_span = size->span;
+    camera.size = read_picture_size(reader, *size, camera.size);
+  }
   const Node* look_at = fields.find("look_at");
   if (look_at) camera.look_at = {read_look_at(reader, *look_at, facts), look_at->span};
-  // From the centre one cannot look at the centre
+  // A camera at the centre cannot look at the centre.
   else if (std::holds_alternative<AtCentre>(camera.place.floor)) camera.look_at.value = LookDirection{};
   else camera.look_at.value = Place{};
   return camera;
@@ -141,12 +144,12 @@ Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
 BakeSpec read_bake(Reader& reader, const Node& node, Integrator integrator) {
   BakeSpec bake;
   const Fields fields(reader, node, "the bake", {"atlas", "lights", "bounces", "mirrors", "samples", "quality", "seed"});
-  bake.lights = fields.choice<LightsBy>("lights", bake.lights, {{"baked", LightsBy::baked}, {"native", LightsBy::native}});
+  bake.lights = fields.choice<LightMode>("lights", bake.lights, {{"baked", LightMode::baked}, {"native", LightMode::native}});
   bake.atlas =
-      fields.choice<AtlasDepth>("atlas", bake.atlas, {{"8", AtlasDepth::eight}, {"16", AtlasDepth::sixteen}, {"exr", AtlasDepth::exr}});
-  bake.bounces = fields.integer("bounces", bake.bounces, 0, 64);
-  bake.mirrors = fields.integer("mirrors", bake.mirrors, 0, 12);
-  if (const Node* mirrors = fields.find("mirrors")) bake.mirrors_span = mirrors->span;
+      fields.choice<AtlasFormat>("atlas", bake.atlas, {{"8", AtlasFormat::srgb8}, {"16", AtlasFormat::srgb16}, {"exr", AtlasFormat::exr}});
+  bake.indirect_bounces = fields.integer("bounces", bake.indirect_bounces, 0, 64);
+  bake.mirror_bounces = fields.integer("mirrors", bake.mirror_bounces, 0, 12);
+  if (const Node* mirrors = fields.find("mirrors")) bake.mirror_bounces_span = mirrors->span;
   if (fields.has("samples")) bake.samples = fields.integer("samples", 256, 1, 65536);
   bake.quality = fields.choice<BakeQuality>("quality", bake.quality,
                                             {{"draft", BakeQuality::draft}, {"normal", BakeQuality::normal}, {"fine", BakeQuality::fine}});

@@ -1,29 +1,29 @@
-// The white point. Light adds up linearly, so to divide every source by it is to divide the picture by it, up to the limit of what a
-// surface can show; and all outputs agree, since none of them knows. Luminance: Rec. 709.
+// The white point. Light is linear, so dividing every light source by the white point divides the image by it. All products agree, because
+// none of them depends on the white point. Luminance: Rec. 709.
 #include <algorithm>
 
-#include "compiler/scene/parts.h"
+#include "compiler/scene/readers.h"
 
 namespace orbc::scene {
 namespace {
 
 Color divided(const Color& c, const Color& by) { return {c.r / by.r, c.g / by.g, c.b / by.b}; }
 
-// What glows by itself is a light too, and so is a scene whose surfaces pass light on.
+// Whether the scene has lamps, emissive surfaces, or indirect light.
 bool has_light(const Scene& scene) {
-  const auto glows = [](const Material& material) { return material.kind == MaterialKind::emissive; };
-  const auto mirror_glows = [&](const Mirror& mirror) {
-    return !(mirror.glow == Color{}) || (mirror.frame && glows(mirror.frame->material));
+  const auto is_emissive = [](const Material& material) { return material.kind == MaterialKind::emissive; };
+  const auto is_mirror_emissive = [&](const Mirror& mirror) {
+    return !(mirror.emission == Color{}) || (mirror.frame && is_emissive(mirror.frame->material));
   };
-  const auto surface_glows = [&](const Surface& surface) {
-    return glows(surface.material) || (surface.mirror && mirror_glows(*surface.mirror));
+  const auto is_surface_emissive = [&](const Surface& surface) {
+    return is_emissive(surface.material) || (surface.mirror && is_mirror_emissive(*surface.mirror));
   };
-  return !scene.lamps.empty() || scene.integrator == Integrator::path || surface_glows(scene.room.floor) ||
-         surface_glows(scene.room.ceiling) ||
+  return !scene.lamps.empty() || scene.integrator == Integrator::path || is_surface_emissive(scene.room.floor) ||
+         is_surface_emissive(scene.room.ceiling) ||
          std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [&](const Object& object) { return object.material && glows(*object.material); }) ||
+                     [&](const Object& object) { return object.material && is_emissive(*object.material); }) ||
          std::any_of(scene.room.walls.begin(), scene.room.walls.end(), [&](const Wall& wall) {
-           return glows(wall.material) || std::any_of(wall.mirrors.begin(), wall.mirrors.end(), mirror_glows);
+           return is_emissive(wall.material) || std::any_of(wall.mirrors.begin(), wall.mirrors.end(), is_mirror_emissive);
          });
 }
 
@@ -34,7 +34,7 @@ void balance(Material& material, const Color& white) {
 }
 
 void balance(Mirror& mirror, const Color& white) {
-  mirror.glow = divided(mirror.glow, white);
+  mirror.emission = divided(mirror.emission, white);
   if (mirror.frame) balance(mirror.frame->material, white);
 }
 
@@ -47,7 +47,7 @@ void balance_white(const Fields& fields, Scene& scene) {
   if (node->kind == NodeKind::scalar && number_of(*node)) white = color_of_temperature(fields.number("white", 6500, {2000, 25000}));
   else white = fields.color("white", white);
   const double luminance = 0.2126 * white.r + 0.7152 * white.g + 0.0722 * white.b;
-  // Light that shall look white has some of every colour: a hundredth at least.
+  // Each channel of the white point is at least a hundredth of its luminance, so that the division is bounded.
   for (double* channel : {&white.r, &white.g, &white.b}) *channel = std::max({*channel, 0.01 * luminance, 1e-6});
   white = (1 / std::max(luminance, 1e-6)) * white;
   if (!has_light(scene)) fields.no_effect("white", "there are no lights");

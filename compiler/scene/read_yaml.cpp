@@ -1,6 +1,6 @@
-// The one file that knows yaml-cpp. Its events build our own tree: so nodes carry exact places, aliases never expand, depth and number of
-// values are bounded while parsing (yaml-cpp recurses one level per OnMapStart/OnSequenceStart, and our handler throws from there), and a
-// key given twice is seen. Bytes that yaml-cpp treats in its own way (NUL, 0x04, other encodings) are refused before it sees them.
+// The only file that includes yaml-cpp. Its events build our own tree. So nodes have exact spans, aliases are never expanded, depth and
+// number of values are bounded while parsing (yaml-cpp recurses one level per OnMapStart/OnSequenceStart, and our handler throws from
+// there), and duplicate keys are found. Bytes that yaml-cpp treats specially (NUL, 0x04, other encodings) are rejected before it is called.
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
@@ -17,11 +17,11 @@
 namespace orbc::scene {
 namespace {
 
-struct Refusal {  // thrown by the handler through yaml-cpp, caught below
+struct Refusal {  // thrown by the handler through yaml-cpp, caught in parse_document
   Diagnostic diagnostic;
 };
 
-// Most often an orbifold without its quotes.
+// Usually an orbifold without quotes.
 Diagnostic alias(const Locator& locator, std::size_t offset) {
   return make_error("scene.alias", "in YAML a word that starts with * is a reference to an anchor, which scene files do not have",
                     "a notation is text, write it in quotes: orbifold: \"*22222\"", locator.token_at(offset));
@@ -122,8 +122,13 @@ class TreeBuilder final : public YAML::EventHandler {
     }
     Level& level = levels_.back();
     if (level.node.kind == NodeKind::list) level.node.items.push_back(std::move(node));
-    else if (!level.value_next) level.key = std::move(node), level.value_next = true;
-    else level.value_next = false, add_entry(level, std::move(node));
+    else if (!level.value_next) {
+      level.key = std::move(node);
+      level.value_next = true;
+    } else {
+      level.value_next = false;
+      add_entry(level, std::move(node));
+    }
   }
 
   void add_entry(Level& level, Node value) {
@@ -131,7 +136,7 @@ class TreeBuilder final : public YAML::EventHandler {
       document.faults.push_back(make_error("scene.bad-key", "a key must be a word or a number", "write `key: value`", level.key.span));
       return;
     }
-    if (value.kind == NodeKind::nothing) value.span = level.key.span;  // yaml-cpp marks the next token, which may be lines below
+    if (value.kind == NodeKind::null) value.span = level.key.span;  // yaml-cpp marks the next token, which may be lines below
     const auto [first, fresh] = level.seen.emplace(level.key.text, level.key.span);
     if (!fresh) {
       document.faults.push_back(make_error("scene.duplicate-key",
@@ -150,7 +155,7 @@ class TreeBuilder final : public YAML::EventHandler {
   int documents_ = 0;
 };
 
-// What an author can do about yaml-cpp's terse messages.
+// Hints for yaml-cpp's messages.
 std::string hint_for(const std::string& message) {
   static const std::map<std::string, std::string> hints = {
       {YAML::ErrorMsg::MAP_VALUE, "only one `key: value` may stand on a line outside { }; text that contains `: ` must stand in quotes"},
@@ -186,7 +191,7 @@ bool follows_quote(std::string_view text, std::size_t offset) {
   return last != std::string_view::npos && (text[last] == '"' || text[last] == '\'');
 }
 
-// The bracket that is not closed is where the author must look, not the place where the parser gives up.
+// The diagnostic points to the open bracket, not to the place where the parser stops.
 Diagnostic unclosed(const YAML::ParserException& exception, const Locator& locator, const std::optional<SourceSpan>& opened) {
   const bool map = exception.msg == YAML::ErrorMsg::END_OF_MAP_FLOW;
   const SourceSpan noticed = locator.at(static_cast<std::size_t>(exception.mark.pos));
@@ -241,7 +246,7 @@ Result<Document> parse_document(const std::shared_ptr<const SourceText>& source,
   } catch (const YAML::Exception& exception) {
     return make_error("scene.syntax", "this is not YAML: " + exception.msg, "", {source, 0, 0, 0});
   }
-  if (builder.document.root.kind == NodeKind::nothing)
+  if (builder.document.root.kind == NodeKind::null)
     return make_error("scene.empty", "the scene is empty", "the smallest scene is the two lines `orbc: 1` and `orbifold: \"*22222\"`",
                       {source, 0, 0, 0});
   return std::move(builder.document);

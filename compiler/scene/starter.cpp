@@ -13,7 +13,7 @@
 namespace orbc::scene {
 namespace {
 
-constexpr const char* kText = R"(# A room with mirrors for walls. Draw it:   orbc render room.yaml -o room.png
+constexpr const char* kTemplate = R"(# A room with mirrors for walls. Draw it:   orbc render room.yaml -o room.png
 # Check it:   orbc check room.yaml          Mesh it for Blender:   orbc compile room.yaml -o room.glb
 # Lengths are radii of curvature (in flat rooms: whatever unit you like); angles are degrees, or 0.5rad.
 orbc: 1
@@ -62,15 +62,15 @@ camera:
 cover: {{max_bounces: {bounces}, background: expected}}    # how far mirrors are followed; beyond it the colour expected there
 )";
 
-// Where things stand: `ahead` of the middle of the scene in the direction of view and to its `left`, in inradii.
-struct Spot {
+// A position relative to the middle of the scene: `ahead` in the direction of view, and to its `left`, in units of the frame.
+struct FloorOffset {
   double ahead = 0, left = 0;
 };
-constexpr Spot kEye{-0.84, 0}, kGoal{0.4, 0}, kColumn{0.12, 0.22}, kBall{0.22, -0.28}, kLamp{0.3, -0.38};
+constexpr FloorOffset kEye{-0.84, 0}, kGoal{0.4, 0}, kColumn{0.12, 0.22}, kBall{0.22, -0.28}, kLamp{0.3, -0.38};
 
-// The floor of the room as the scene uses it. Large rooms are furnished on the side that the view goes to, so that the wall there is near.
-struct Stage {
-  double unit = 1;                  // what sizes are measured in: the inradius, at most 1
+// The coordinate frame of the scene on the floor. Large rooms are furnished on the side of the view, so that the wall there is near.
+struct StarterFrame {
+  double unit = 1;                  // of lengths: the inradius, at most 1
   double shift = 0;                 // from the centre of the room to the middle of the scene
   double view = 0;                  // degrees
 };
@@ -100,32 +100,32 @@ std::string wall_hint(std::string_view notation, int walls) {
 
 std::string shown(double value) { return fmt::format("{:.2g}", value); }
 
-// Comments behind values start in one column, wherever the values end.
+// Moves comments behind values to one column.
 std::string aligned(const std::string& text) {
-  constexpr std::size_t kComments = 58;
+  constexpr std::size_t kCommentColumn = 58;
   std::string all;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     std::string line = text.substr(begin, end - begin);
     const std::size_t mark = line.find("  # ", std::min(line.size(), line.find_first_not_of(' ')));
     const std::size_t code_end = mark == std::string::npos ? mark : line.find_last_not_of(' ', mark);
-    if (code_end != std::string::npos && code_end + 1 < kComments)
-      line = line.substr(0, code_end + 1) + std::string(kComments - code_end - 1, ' ') + line.substr(line.find('#', mark));
+    if (code_end != std::string::npos && code_end + 1 < kCommentColumn)
+      line = line.substr(0, code_end + 1) + std::string(kCommentColumn - code_end - 1, ' ') + line.substr(line.find('#', mark));
     all += line + "\n";
     begin = end + 1;
   }
   return all;
 }
 
-// A place as `[distance, direction]`. The sum of the legs is flat geometry, which in curved rooms only moves a place a little, never beyond
-// the incircle.
-std::string polar(const Stage& stage, const Spot& spot) {
-  const double x = stage.shift + stage.unit * spot.ahead, y = stage.unit * spot.left;
-  const int direction = static_cast<int>(std::lround(stage.view + math::atan2(y, x) * 180 / std::numbers::pi));
+// A place as `[distance, direction]`. Both components are added as in flat geometry. In curved rooms that moves a place a little, but never
+// beyond the incircle.
+std::string polar(const StarterFrame& frame, const FloorOffset& spot) {
+  const double x = frame.shift + frame.unit * spot.ahead, y = frame.unit * spot.left;
+  const int direction = static_cast<int>(std::lround(frame.view + math::atan2(y, x) * 180 / std::numbers::pi));
   return fmt::format("[{}, {}deg]", shown(math::hypot(x, y)), (direction % 360 + 360) % 360);
 }
 
-Stage stage_of(const StarterRoom& room) {
+StarterFrame starter_frame(const StarterRoom& room) {
   const double inradius = room.inradius > 0 ? room.inradius : room.notation == "**" ? 1.0 : 0.5;
   const double unit = std::min(inradius, 1.0);
   return {unit, room.notation == "*" ? 0 : inradius - unit, room.view};
@@ -135,26 +135,26 @@ Stage stage_of(const StarterRoom& room) {
 
 std::string starter_scene(const StarterRoom& room) {
   using fmt::arg;
-  constexpr double kLeastCell = 1e-4;       // that scenes may have
-  constexpr double kLeastFloorCell = 0.005;  // of the thinnest triangles, which are long, the floor may have no more than 200,000 cells
-  const Stage stage = stage_of(room);
-  const double r = stage.unit, height = 1.4 * r;
+  constexpr double kMinCell = 1e-4;       // smallest cell that scenes may have
+  constexpr double kMinFloorCell = 0.005;  // the thinnest triangles are long, and a floor has at most 200,000 cells
+  const StarterFrame frame = starter_frame(room);
+  const double r = frame.unit, height = 1.4 * r;
   const auto orbifold = notation::parse(room.notation, {{}, true});
   const int bounces = orbifold ? default_max_bounces(*orbifold) : 12;
   const bool real = room.notation.find_first_of("/.") != std::string::npos;
   return aligned(fmt::format(
-      fmt::runtime(kText), arg("notation", in_quotes(room.notation)), arg("about", about(room.notation)),
+      fmt::runtime(kTemplate), arg("notation", in_quotes(room.notation)), arg("about", about(room.notation)),
       arg("allow", real ? "\nallow_non_orbifold: true" : ""), arg("height", shown(height)),
-      arg("cell", shown(std::max(0.3 * r, kLeastFloorCell))), arg("frame", shown(0.05 * r)),
+      arg("cell", shown(std::max(0.3 * r, kMinFloorCell))), arg("frame", shown(0.05 * r)),
       arg("wall_hint", wall_hint(room.notation, room.walls)), arg("span_from", shown(0.2 * r)), arg("span_to", shown(0.8 * r)),
       arg("mirror_from", shown(0.3 * r)), arg("mirror_to", shown(1.2 * r)), arg("column_radius", shown(0.1 * r)),
       arg("column_height", shown(0.36 * r)),
-      arg("column_at", polar(stage, kColumn)), arg("marble_cell", shown(std::max(0.22 * r, kLeastCell))),
+      arg("column_at", polar(frame, kColumn)), arg("marble_cell", shown(std::max(0.22 * r, kMinCell))),
       arg("knot_radius", shown(0.11 * r)), arg("knot_tube", shown(0.042 * r)), arg("ball_radius", shown(0.13 * r)),
-      arg("ball_at", polar(stage, kBall)), arg("ball_distance", shown(0.5 * r)), arg("mesh_size", shown(0.4 * r)),
-      arg("lamp_at", polar(stage, kLamp)), arg("lamp_z", shown(0.78 * height)), arg("lamp_radius", shown(0.06 * r)),
-      arg("power", shown(18 * r * r)), arg("eye_at", polar(stage, kEye)), arg("eye_z", shown(0.44 * height)),
-      arg("goal_at", polar(stage, kGoal)), arg("goal_z", shown(0.37 * height)), arg("bounces", bounces)));
+      arg("ball_at", polar(frame, kBall)), arg("ball_distance", shown(0.5 * r)), arg("mesh_size", shown(0.4 * r)),
+      arg("lamp_at", polar(frame, kLamp)), arg("lamp_z", shown(0.78 * height)), arg("lamp_radius", shown(0.06 * r)),
+      arg("power", shown(18 * r * r)), arg("eye_at", polar(frame, kEye)), arg("eye_z", shown(0.44 * height)),
+      arg("goal_at", polar(frame, kGoal)), arg("goal_z", shown(0.37 * height)), arg("bounces", bounces)));
 }
 
 }  // namespace orbc::scene

@@ -11,18 +11,18 @@
 namespace orbc::scene {
 namespace {
 
-constexpr std::size_t kShown = 40;  // bytes of an author's word that a message repeats
+constexpr std::size_t kMaxQuotedBytes = 40;  // of an author's word in a message
 
 std::string shortened(std::string_view text) {
-  if (text.size() <= kShown) return std::string(text);
-  std::size_t end = kShown;
+  if (text.size() <= kMaxQuotedBytes) return std::string(text);
+  std::size_t end = kMaxQuotedBytes;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return std::string(text.substr(0, end)) + "…";
 }
 
 std::string described(const Node& node) {
   switch (node.kind) {
-    case NodeKind::nothing: return "nothing";
+    case NodeKind::null: return "nothing";
     case NodeKind::list: return "a list";
     case NodeKind::map: return "a map";
     case NodeKind::scalar: break;
@@ -53,7 +53,7 @@ std::optional<double> parse_number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(unsigned_text.data(), unsigned_text.data() + unsigned_text.size(), value);
   if (end != unsigned_text.data() + unsigned_text.size()) return std::nullopt;
-  if (error == std::errc::result_out_of_range) {  // far too small counts as 0, far too big as infinite
+  if (error == std::errc::result_out_of_range) {  // too small counts as 0, too large as infinite
     const std::size_t e = unsigned_text.find_first_of("eE");
     const bool tiny = e != std::string_view::npos ? unsigned_text[e + 1] == '-' : unsigned_text[0] == '.' || unsigned_text[0] == '0';
     return tiny ? 0.0 : sign * std::numeric_limits<double>::infinity();
@@ -96,7 +96,7 @@ void Reader::warning(std::string code, const SourceSpan& span, std::string messa
 }
 
 void Reader::wrong_type(const Node& node, std::string_view what, std::string_view wanted, std::string hint) {
-  if (hint.empty() && node.kind == NodeKind::nothing) hint = "give it a value or remove the line";
+  if (hint.empty() && node.kind == NodeKind::null) hint = "give it a value or remove the line";
   error("scene.wrong-type", node.span, fmt::format("{} must be {}, but is {}", what, wanted, described(node)), std::move(hint));
 }
 
@@ -157,7 +157,7 @@ Color Reader::color(const Node& node, std::string_view what, const Color& fallba
     return from_srgb(rgb[0], rgb[1], rgb[2]);
   }
   static constexpr const char* kWanted = "a colour: a CSS name, \"#rgb\", \"#rrggbb\" or [red, green, blue] from 0 to 1";
-  if (node.kind == NodeKind::nothing) {
+  if (node.kind == NodeKind::null) {
     wrong_type(node, what, kWanted, "in YAML a # starts a comment: write \"#ffeedd\" in quotes");
     return fallback;
   }
@@ -221,7 +221,7 @@ bool Reader::list(const Node& node, std::string_view what, std::size_t count, st
 Fields::Fields(Reader& reader, const Node& node, std::string what, std::vector<std::string> known)
     : reader_(reader), node_(node), what_(std::move(what)) {
   if (node.kind != NodeKind::map) {
-    reader.wrong_type(node, what_, "a map of keys and values", node.kind == NodeKind::nothing ? "" : keys_of(known));
+    reader.wrong_type(node, what_, "a map of keys and values", node.kind == NodeKind::null ? "" : keys_of(known));
     return;
   }
   for (const Node& key : node.keys) {
@@ -263,7 +263,7 @@ void Fields::no_effect(std::string_view key, std::string_view why) const {
   const auto is_same = [&](const Diagnostic& d) {
     return d.code == "scene.no-effect" && d.span.line == span.line && d.span.column == span.column;
   };
-  if (std::any_of(reader_.diagnostics.begin(), reader_.diagnostics.end(), is_same)) return;  // one reason is enough
+  if (std::any_of(reader_.diagnostics.begin(), reader_.diagnostics.end(), is_same)) return;  // one warning per key is enough
   reader_.warning("scene.no-effect", span, fmt::format("`{}` changes nothing here: {}", key, why), "remove it");
 }
 

@@ -8,7 +8,7 @@
 #include "compiler/geometry/chart.h"
 #include "compiler/image/image.h"
 #include "compiler/image/srgb.h"
-#include "compiler/place/texel.h"
+#include "compiler/place/alpha_mask.h"
 
 namespace orbc::surface {
 namespace {
@@ -69,10 +69,10 @@ bool has_solid_position(const place::PlacedMesh& part) {
          part.kind == place::PartKind::wall;
 }
 
-std::optional<Vector3> solid_position(const place::PlacedRoom& room, const place::PlacedMesh& part, const geometry::Position& at,
+std::optional<Vector3> solid_position(const place::Interior& room, const place::PlacedMesh& part, const geometry::Position& at,
                                       const Vector3& object_position) {
   if (!has_solid_position(part)) return std::nullopt;
-  return part.pattern_position.empty() ? shell_position(room.room.space, at) : object_position;
+  return part.pattern_position.empty() ? shell_position(room.polygon.space, at) : object_position;
 }
 
 }  // namespace
@@ -106,24 +106,24 @@ Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
   return {z.real(), z.imag(), at.z};
 }
 
-bool varies_in_triangle(const place::PlacedRoom& room, const place::PlacedMesh& part, int look) {
+bool varies_in_triangle(const place::Interior& room, const place::PlacedMesh& part, int look) {
   if (look < 0) return false;
-  const place::Look& l = room.looks[static_cast<std::size_t>(look)];
+  const place::SurfaceStyle& l = room.styles[static_cast<std::size_t>(look)];
   return l.texture >= 0 || (has_solid_position(part) && is_solid(l.material.pattern));
 }
 
-Color albedo(const place::PlacedRoom& room, const AlbedoQuery& query) {
+Color albedo(const place::Interior& room, const AlbedoQuery& query) {
   if (query.look < 0) return query.color;
-  const place::Look& look = room.looks[static_cast<std::size_t>(query.look)];
+  const place::SurfaceStyle& look = room.styles[static_cast<std::size_t>(query.look)];
   if (look.texture >= 0) return look.color * texel(room.textures[static_cast<std::size_t>(look.texture)], query.uv[0], query.uv[1]);
   if (!query.solid_position || !is_solid(look.material.pattern)) return query.color;
   const double t = solid_pattern(look.material.pattern, *query.solid_position, look.material.cell);
   return (1 - t) * look.material.color + t * look.material.second;
 }
 
-Color hit_albedo(const place::PlacedRoom& room, const trace::SurfacePoint& point) {
+Color hit_albedo(const place::Interior& room, const trace::SurfacePoint& point) {
   AlbedoQuery query;
-  query.look = point.look;
+  query.look = point.style;
   query.color = point.color;
   query.uv[0] = point.uv[0];
   query.uv[1] = point.uv[1];
@@ -132,10 +132,10 @@ Color hit_albedo(const place::PlacedRoom& room, const trace::SurfacePoint& point
   return albedo(room, query);
 }
 
-Color triangle_albedo(const place::PlacedRoom& room, const place::PlacedMesh& part, std::size_t triangle, const std::array<double, 3>& b) {
+Color triangle_albedo(const place::Interior& room, const place::PlacedMesh& part, std::size_t triangle, const std::array<double, 3>& b) {
   AlbedoQuery query;
-  query.look = part.look[triangle];
-  query.color = room.looks[part.look[triangle]].color;
+  query.look = part.style[triangle];
+  query.color = room.styles[part.style[triangle]].color;
   const mesh::Triangle& t = part.triangles[triangle];
   geometry::Ambient sum{0, 0, 0};
   geometry::Vector3 object_position;
@@ -149,7 +149,7 @@ Color triangle_albedo(const place::PlacedRoom& room, const place::PlacedMesh& pa
   }
   // The uv of a triangle lie in [0, 1]. 1 means the last texel of this repeat, not the first texel of the next one.
   for (double& c : query.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
-  query.solid_position = solid_position(room, part, {geometry::normalised_point(room.room.space, sum), z}, object_position);
+  query.solid_position = solid_position(room, part, {geometry::normalised_point(room.polygon.space, sum), z}, object_position);
   return albedo(room, query);
 }
 

@@ -116,7 +116,7 @@ Color f0(const scene::Material& material, const Color& albedo) {
 
 BsdfSample sample_ggx(geometry::Space space, const trace::SurfacePoint& point, double alpha, const std::array<double, 2>& u) {
   const TangentFrame frame = tangent_frame(space, point.at.floor);
-  const Vector3 n = geometry::normalised(to_local(space, frame, point.normal)), to_eye = -1.0 * to_local(space, frame, point.arriving);
+  const Vector3 n = geometry::normalised(to_local(space, frame, point.normal)), to_eye = -1.0 * to_local(space, frame, point.incoming);
   const Vector3 tangent = geometry::normalised(cross(std::fabs(n.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}, n)),
                 bitangent = cross(n, tangent);
   const Vector3 eye{dot(to_eye, tangent), dot(to_eye, bitangent), std::max(1e-6, dot(to_eye, n))};

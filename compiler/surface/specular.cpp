@@ -7,17 +7,17 @@ namespace orbc::surface {
 namespace {
 
 double cos_incident(geometry::Space space, const trace::SurfacePoint& point) {
-  return std::clamp(-trace::inner(space, point.arriving, point.normal), 0.0, 1.0);
+  return std::clamp(-trace::inner(space, point.incoming, point.normal), 0.0, 1.0);
 }
 
 }  // namespace
 
 trace::Direction reflect(geometry::Space space, const trace::SurfacePoint& point) {
-  return point.arriving + (2 * cos_incident(space, point)) * point.normal;
+  return point.incoming + (2 * cos_incident(space, point)) * point.normal;
 }
 
 Refraction refract(geometry::Space space, const trace::SurfacePoint& point, double index) {
-  const double eta = point.outside ? index : 1 / index, cosine = cos_incident(space, point);
+  const double eta = point.front_facing ? index : 1 / index, cosine = cos_incident(space, point);
   const double sine2 = (1 - cosine * cosine) / (eta * eta);
   double transmitted = 0;  // cosine of the refracted ray; 0 at total reflection
   Refraction result;
@@ -27,7 +27,7 @@ Refraction refract(geometry::Space space, const trace::SurfacePoint& point, doub
     const double across = (cosine - eta * transmitted) / (cosine + eta * transmitted);
     result.reflectance = (parallel * parallel + across * across) / 2;
   }
-  result.direction = (1 / eta) * point.arriving + (cosine / eta - transmitted) * point.normal;
+  result.direction = (1 / eta) * point.incoming + (cosine / eta - transmitted) * point.normal;
   return result;
 }
 

@@ -1,5 +1,5 @@
-// The border of the prism by formula (analytic.h). Box triangles as walls lose rays in corners even in robust tracers (performance study,
-// accuracy table); one inequality per wall does not.
+// The border of the prism by formula (analytic.h). Walls made of triangles lose rays in corners even in robust tracers (performance study,
+// accuracy table); one inequality per wall loses none.
 #include "compiler/trace/analytic.h"
 
 #include <algorithm>
@@ -18,13 +18,13 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
   Exit exit;
   const Space space = prism.space;
   if (ray.c > 0) {
-    double largest = space == Space::spherical ? -kEndless : geometry::curvature(space) < 0 ? 1.0 : 0.0;
+    double largest = space == Space::spherical ? -kInfinity : geometry::curvature(space) < 0 ? 1.0 : 0.0;
     int first = -1;
     for (int i = 0; i < static_cast<int>(prism.walls.size()); ++i) {
       const double at = std::max(0.0, geometry::value_at(prism.walls[i].line, ray.at));
-      const double towards = -geometry::value_at(prism.walls[i].line, ray.along);
-      if (i == ray.leaves_wall && !(space == Space::spherical && prism.walls.size() <= 2)) continue;
-      const double cot = i == ray.leaves_wall ? -kEndless : at > 0 ? towards / at : towards > 0 ? kEndless : -kEndless;
+      const double outward = -geometry::value_at(prism.walls[i].line, ray.along);
+      if (i == ray.start_wall && !(space == Space::spherical && prism.walls.size() <= 2)) continue;
+      const double cot = i == ray.start_wall ? -kInfinity : at > 0 ? outward / at : outward > 0 ? kInfinity : -kInfinity;
       if (cot > largest || (first < 0 && space == Space::spherical && cot == largest)) {
         largest = cot;
         first = i;
@@ -32,9 +32,9 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
     }
     if (first >= 0) {
       const double s = space == Space::spherical
-                           ? std::fabs(largest) == kEndless ? (largest > 0 ? 0 : std::numbers::pi) : arc_of_circle(largest, 1)
+                           ? std::fabs(largest) == kInfinity ? (largest > 0 ? 0 : std::numbers::pi) : arc_of_circle(largest, 1)
                        : space == Space::euclidean ? 1 / largest
-                       : largest == kEndless       ? 0
+                       : largest == kInfinity      ? 0
                                                    : 0.5 * math::log((largest + 1) / (largest - 1));
       exit = {s / ray.c, first};
     }
@@ -48,14 +48,17 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
 
 namespace {
 
-/// A floor point and a direction there after arc length s; one exponential or sine and cosine for both.
-struct Place {
+/// The floor point and the direction there after arc length s along the ray; both share one exponential, or one sine and cosine.
+struct PointAndDirection {
   geometry::Ambient at, along;
 };
 
-Place advanced(Space space, const Ray& ray, double s) {
+PointAndDirection step_along(Space space, const Ray& ray, double s) {
   double cosine = 1, sine = s;
-  if (space == Space::spherical) cosine = math::cos(s), sine = math::sin(s);
+  if (space == Space::spherical) {
+    cosine = math::cos(s);
+    sine = math::sin(s);
+  }
   if (space == Space::hyperbolic) {
     const double e = math::exp(s);
     cosine = 0.5 * (e + 1 / e);
@@ -65,8 +68,9 @@ Place advanced(Space space, const Ray& ray, double s) {
   return {cosine * p + sine * v, (-geometry::curvature(space) * sine) * p + cosine * v};
 }
 
-/// Puts (P, V) back: P on its surface, V orthogonal to it and of length 1. H²: |V|² = (|V_xy|² + (P × V)²)/P_w² cannot cancel.
-void restore(Space space, const Place& from, Ray& ray) {
+/// Sets the ray's start to (P, V), projected: P onto the space, V onto the unit tangents at P. H²: the form |V|² = (|V_xy|² + (P ×
+/// V)²)/P_w² has no cancellation.
+void reproject(Space space, const PointAndDirection& from, Ray& ray) {
   const auto& [p, v] = from;
   if (space == Space::euclidean) {
     const double n = 1 / std::sqrt(v.x * v.x + v.y * v.y);
@@ -80,8 +84,8 @@ void restore(Space space, const Place& from, Ray& ray) {
     const double l = 1 / std::sqrt(t.w * t.w + t.x * t.x + t.y * t.y);
     ray.along = {l * t.w, l * t.x, l * t.y};
   } else {
-    const double w = std::sqrt(1 + p.x * p.x + p.y * p.y), turn = p.x * v.y - p.y * v.x;
-    const double n = w / std::sqrt(v.x * v.x + v.y * v.y + turn * turn);
+    const double w = std::sqrt(1 + p.x * p.x + p.y * p.y), cross = p.x * v.y - p.y * v.x;
+    const double n = w / std::sqrt(v.x * v.x + v.y * v.y + cross * cross);
     ray.at = {w, p.x, p.y};
     ray.along = {n * (v.x * p.x + v.y * p.y) / w, n * v.x, n * v.y};
   }
@@ -91,26 +95,26 @@ void restore(Space space, const Place& from, Ray& ray) {
 
 Ray reflected_in_wall(const Prism& prism, const Ray& ray, double t, int wall) {
   const geometry::Line& n = prism.walls[wall].line;
-  Place place = advanced(prism.space, ray, ray.c * t);
-  // Back onto the wall's line, the direction to the other side: neither the distance from the wall nor ⟨P, P⟩ drifts.
+  PointAndDirection moved = step_along(prism.space, ray, ray.c * t);
+  // The point is projected onto the wall's line and the direction reflected, so that neither the distance from the wall nor ⟨P, P⟩ drifts.
   const geometry::Ambient normal{geometry::curvature(prism.space) * n.w, n.x, n.y};
-  place.at = place.at - geometry::value_at(n, place.at) * normal;
-  place.along = place.along - (2 * geometry::value_at(n, place.along)) * normal;
+  moved.at = moved.at - geometry::value_at(n, moved.at) * normal;
+  moved.along = moved.along - (2 * geometry::value_at(n, moved.along)) * normal;
   Ray out = ray;
-  restore(prism.space, place, out);
+  reproject(prism.space, moved, out);
   out.z = ray.z + ray.m * t;
   out.t_min = 0;
-  out.leaves_wall = wall;
+  out.start_wall = wall;
   return out;
 }
 
 Ray reflected_in_plane(const Prism& prism, const Ray& ray, double t, int surface) {
   Ray out = ray;
-  restore(prism.space, advanced(prism.space, ray, ray.c * t), out);
+  reproject(prism.space, step_along(prism.space, ray, ray.c * t), out);
   out.z = surface == kCeiling ? prism.height : 0;
   out.m = -ray.m;
   out.t_min = 0;
-  if (t > 0) out.leaves_wall = -1;
+  if (t > 0) out.start_wall = -1;
   return out;
 }
 

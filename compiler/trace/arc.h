@@ -7,12 +7,26 @@
 
 namespace orbc::trace {
 
-/// Arc functions of the tracer's inner loops. The same bits on every machine (no libm on S²), and cheap.
+/// Arc functions of the tracer's inner loops: cheap, and with the same bits on every machine (no libm on S²).
 
-inline constexpr double kArcOfSixteenth[17] = {  // atan(i/16)
-    0.0, 0.06241880999595735, 0.12435499454676144, 0.18534794999569476, 0.24497866312686414, 0.3028848683749714, 0.35877067027057225,
-    0.4124104415973873, 0.4636476090008061, 0.5123894603107377, 0.5585993153435624, 0.6022873461349642, 0.6435011087932844,
-    0.6823165548747481, 0.7188299996216245, 0.7531512809621944, 0.7853981633974483};
+inline constexpr double kAtanOfSixteenths[17] = {  // atan(i/16)
+    0.0,
+    0.06241880999595735,
+    0.12435499454676144,
+    0.18534794999569476,
+    0.24497866312686414,
+    0.3028848683749714,
+    0.35877067027057225,
+    0.4124104415973873,
+    0.4636476090008061,
+    0.5123894603107377,
+    0.5585993153435624,
+    0.6022873461349642,
+    0.6435011087932844,
+    0.6823165548747481,
+    0.7188299996216245,
+    0.7531512809621944,
+    0.7853981633974483};
 
 /// atanκ(x) = x − κx³/3 + x⁵/5 − … for |x| ≤ 1/32, to the last bit but one.
 template <int kCurvature>
@@ -30,7 +44,7 @@ template <int kCurvature>
   const double r = small / big;
   const int i = static_cast<int>(r * 16 + 0.5);
   const double node = i * 0.0625;
-  double s = kArcOfSixteenth[i] + small_arc<1>((small - node * big) / (big + node * small));
+  double s = kAtanOfSixteenths[i] + small_arc<1>((small - node * big) / (big + node * small));
   if (steep) s = std::numbers::pi / 2 - s;
   if (p < 0) s = std::numbers::pi - s;
   return std::copysign(s, v);

@@ -1,22 +1,22 @@
-// The first thing on a ray: triangles through the BVH, the prism's border by formula. Holes are asked for outside of the tree: a ray that
-// meets one starts again behind it; rooms without holes pay one branch a ray.
+// The first hit of a ray: triangles through the BVH, the prism's surfaces by formula. Alpha masks are evaluated outside of the tree: a ray
+// that hits a masked point starts again behind it. Rooms without masks pay one branch per ray.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "compiler/place/texel.h"
-#include "compiler/trace/bvh.h"
+#include "compiler/place/alpha_mask.h"
+#include "compiler/trace/bvh/bvh.h"
 #include "compiler/trace/scene.h"
 
 namespace orbc::trace {
 namespace {
 
-Hit hit_of_triangle(const Soup& soup, const BvhHit& found) {
-  const auto next = std::upper_bound(soup.parts.begin(), soup.parts.end(), found.triangle,
-                                     [](std::uint32_t triangle, const Soup::Part& part) { return triangle < part.first; });
-  const Soup::Part& part = *(next - 1);
+Hit hit_of_triangle(const SceneTriangles& triangles, const BvhHit& found) {
+  const auto next = std::upper_bound(triangles.parts.begin(), triangles.parts.end(), found.triangle,
+                                     [](std::uint32_t triangle, const SceneTriangles::Part& part) { return triangle < part.first; });
+  const SceneTriangles::Part& part = *(next - 1);
   Hit hit;
-  hit.target = Target::triangle;
+  hit.kind = HitKind::triangle;
   hit.t = found.t;
   hit.part = part.part;
   hit.triangle = static_cast<int>(found.triangle - part.first);
@@ -26,88 +26,88 @@ Hit hit_of_triangle(const Soup& soup, const BvhHit& found) {
 
 Hit hit_of_exit(const Exit& exit) {
   Hit hit;
-  hit.target = exit.surface >= 0 ? Target::wall : exit.surface == kFloor ? Target::floor : Target::ceiling;
+  hit.kind = exit.surface >= 0 ? HitKind::wall : exit.surface == kFloor ? HitKind::floor : HitKind::ceiling;
   hit.t = exit.t;
   hit.wall = exit.surface >= 0 ? exit.surface : -1;
   return hit;
 }
 
-/// A ray in a room of S² is out after half a turn: no triangle needs to be looked for beyond.
-double longest_in_room(const TraceScene& scene, const Ray& ray) {
-  return scene.prism.space == geometry::Space::spherical && ray.c > 0 ? std::numbers::pi / ray.c : kEndless;
+/// On S² a ray has left every room after half a revolution; no triangle beyond it can be hit.
+double max_length_in_room(const TraceScene& scene, const Ray& ray) {
+  return scene.prism.space == geometry::Space::spherical && ray.c > 0 ? std::numbers::pi / ray.c : kInfinity;
 }
 
-/// As closest, holes included.
-Hit first_met(const TraceScene& scene, const Ray& ray) {
+/// As `closest`, but masked points count as hits.
+Hit closest_ignoring_masks(const TraceScene& scene, const Ray& ray) {
   if (scene.all_inside) {
-    const BvhHit found = scene.objects->closest(ray, longest_in_room(scene, ray));
-    return found.triangle != kNone ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit_of(scene.prism, ray));
+    const BvhHit found = scene.objects->closest(ray, max_length_in_room(scene, ray));
+    return found.triangle != kNoTriangle ? hit_of_triangle(scene.objects->triangles(), found) : hit_of_exit(exit_of(scene.prism, ray));
   }
   const Exit exit = exit_of(scene.prism, ray);
   const BvhHit found = scene.objects->closest(ray, exit.t);
-  return found.triangle != kNone ? hit_of_triangle(scene.objects->soup(), found) : hit_of_exit(exit);
+  return found.triangle != kNoTriangle ? hit_of_triangle(scene.objects->triangles(), found) : hit_of_exit(exit);
 }
 
-bool in_hole(const TraceScene& scene, const Hit& hit) {
-  return hit.target == Target::triangle &&
-         place::in_hole(*scene.room, scene.room->parts[static_cast<std::size_t>(hit.part)], static_cast<std::size_t>(hit.triangle), hit.b);
+bool is_masked_at(const TraceScene& scene, const Hit& hit) {
+  return hit.kind == HitKind::triangle && place::is_masked_at(*scene.interior, scene.interior->parts[static_cast<std::size_t>(hit.part)],
+                                                         static_cast<std::size_t>(hit.triangle), hit.b);
 }
 
-/// What lies behind the holes that a ray meets first.
-template <class Meet>
-Hit behind_holes(const TraceScene& scene, Ray ray, Hit hit, const Meet& meet) {
-  while (in_hole(scene, hit)) {
+/// The first hit that is not masked. In: `hit` is the first hit of `ray`, and `intersect_ray` finds the first hit of any ray.
+template <class IntersectRay>
+Hit skip_masked(const TraceScene& scene, Ray ray, Hit hit, const IntersectRay& intersect_ray) {
+  while (is_masked_at(scene, hit)) {
     ray.t_min = hit.t;
-    hit = meet(ray);
+    hit = intersect_ray(ray);
   }
   return hit;
 }
-Hit behind_holes(const TraceScene& scene, const Ray& ray, const Hit& hit) {
-  return behind_holes(scene, ray, hit, [&](const Ray& on) { return first_met(scene, on); });
+Hit skip_masked(const TraceScene& scene, const Ray& ray, const Hit& hit) {
+  return skip_masked(scene, ray, hit, [&](const Ray& on) { return closest_ignoring_masks(scene, on); });
 }
 
 }  // namespace
 
 Hit closest(const TraceScene& scene, const Ray& ray) {
-  const Hit hit = first_met(scene, ray);
-  return scene.masked ? behind_holes(scene, ray, hit) : hit;
+  const Hit hit = closest_ignoring_masks(scene, ray);
+  return scene.masked ? skip_masked(scene, ray, hit) : hit;
 }
 
 std::vector<Hit> closest(const TraceScene& scene, std::span<const Ray> rays) {
-  constexpr std::size_t kPiece = 64;  // small enough to stay in the first-level cache
+  constexpr std::size_t kStreamRays = 64;  // fits into the first-level cache
   std::vector<Hit> hits;
   hits.reserve(rays.size());
-  BvhHit found[kPiece];
-  Exit exits[kPiece];
-  for (std::size_t first = 0; first < rays.size(); first += kPiece) {
-    const std::size_t count = std::min(kPiece, rays.size() - first);
+  BvhHit found[kStreamRays];
+  Exit exits[kStreamRays];
+  for (std::size_t first = 0; first < rays.size(); first += kStreamRays) {
+    const std::size_t count = std::min(kStreamRays, rays.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      found[i].triangle = kNone;
+      found[i].triangle = kNoTriangle;
       if (!scene.all_inside) exits[i] = exit_of(scene.prism, rays[first + i]);
-      found[i].t = scene.all_inside ? longest_in_room(scene, rays[first + i]) : exits[i].t;
+      found[i].t = scene.all_inside ? max_length_in_room(scene, rays[first + i]) : exits[i].t;
     }
     scene.objects->closest_many(&rays[first], found, count);
     for (std::size_t i = 0; i < count; ++i)
-      hits.push_back(found[i].triangle != kNone ? hit_of_triangle(scene.objects->soup(), found[i])
-                                                : hit_of_exit(scene.all_inside ? exit_of(scene.prism, rays[first + i]) : exits[i]));
+      hits.push_back(found[i].triangle != kNoTriangle ? hit_of_triangle(scene.objects->triangles(), found[i])
+                                                      : hit_of_exit(scene.all_inside ? exit_of(scene.prism, rays[first + i]) : exits[i]));
   }
   if (scene.masked)
-    for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = behind_holes(scene, rays[i], hits[i]);
+    for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = skip_masked(scene, rays[i], hits[i]);
   return hits;
 }
 
 Hit closest_triangle(const TraceScene& scene, const Ray& ray, double max_length) {
-  const auto meet = [&](const Ray& from) {
-    const BvhHit found = scene.objects->closest(from, std::min(max_length, longest_in_room(scene, from)));
-    return found.triangle != kNone ? hit_of_triangle(scene.objects->soup(), found) : Hit{};
+  const auto intersect_ray = [&](const Ray& from) {
+    const BvhHit found = scene.objects->closest(from, std::min(max_length, max_length_in_room(scene, from)));
+    return found.triangle != kNoTriangle ? hit_of_triangle(scene.objects->triangles(), found) : Hit{};
   };
-  const Hit hit = meet(ray);
-  return scene.masked ? behind_holes(scene, ray, hit, meet) : hit;
+  const Hit hit = intersect_ray(ray);
+  return scene.masked ? skip_masked(scene, ray, hit, intersect_ray) : hit;
 }
 
 bool occluded(const TraceScene& scene, const Ray& ray, double max_length) {
-  if (scene.masked) return closest_triangle(scene, ray, max_length).target == Target::triangle;
-  return scene.objects->occluded(ray, std::min(max_length, longest_in_room(scene, ray)));
+  if (scene.masked) return closest_triangle(scene, ray, max_length).kind == HitKind::triangle;
+  return scene.objects->occluded(ray, std::min(max_length, max_length_in_room(scene, ray)));
 }
 
 }  // namespace orbc::trace

@@ -15,8 +15,8 @@ struct TriangleHit {
   double b[3] = {0, 0, 0};
 };
 
-/// What all triangles share of a ray: the plane of ambient space that holds its geodesic.
-/// For X on the geodesic X = p·P + v·V with p = (κ-)inner product with P, v with V, and arc length s = atanκ(v/p).
+/// The part of an intersection that depends on the ray alone: the plane of ambient space that contains its geodesic.
+/// Formula: X on the geodesic is p·P + v·V, where p and v are the κ-inner products with P and V; its arc length is s = atanκ(v/p).
 struct RayPlane {
   geometry::Space space = geometry::Space::euclidean;
   geometry::Ambient side;      ///< covector: sinκ of the signed distance of X from the geodesic, positive to its left
@@ -40,15 +40,15 @@ struct RayPlane {
   return plane;
 }
 
-/// The first point with t_min < t < t_max where the ray meets the geodesic triangle (design §2), in double precision: the reference, and
-/// the last word of the BVH, which therefore finds exactly what trying all triangles finds.
-/// Formula: the ray's plane cuts two edges at X₀, X₁ (affine b, linear). Along u ∈ [0, 1] from X₀ to X₁ the height z(u) is linear and the
+/// The first point with t_min < t < t_max where the ray meets the geodesic triangle (design §2), in double precision. This is the
+/// reference. The BVH decides every hit with it, and therefore finds exactly what testing all triangles finds. Formula: the ray's plane
+/// cuts two edges at X₀, X₁ (affine b, linear). Along u ∈ [0, 1] from X₀ to X₁ the height z(u) is linear and the
 ///          arc is s(u) = atanκ(v(u)/p(u)), v and p linear. The distance of (s, z) from the ray's straight line is
 ///          G(u) = c·(z_ray − z(u)) + m·s(u), and the path length at its foot t = c·s + m·(z − z_ray). G′ has the sign of a quadratic in u,
 ///          so [0, 1] falls into at most three monotone pieces; E²: G is linear, closed form. No special case for vertical rays (c = 0).
-/// Exact:   a shared edge gives the same bits in both triangles, so the decision at it is the same: no ray slips between.
+/// Exact:   a shared edge gives the same bits in both triangles, so both make the same decision there and no ray passes between them.
 /// Error:   |G| ≤ 1e-13 · (1 + t) at the returned t (tests); it is the distance between the ray and the surface point at b.
-/// Not promised: triangles whose plane holds the ray.
-[[nodiscard]] TriangleHit intersect(const RayPlane& plane, const Vertex& a, const Vertex& b, const Vertex& c, double t_max = kEndless);
+/// Not promised: hits of triangles whose plane contains the ray.
+[[nodiscard]] TriangleHit intersect(const RayPlane& plane, const Vertex& a, const Vertex& b, const Vertex& c, double t_max = kInfinity);
 
 }  // namespace orbc::trace

@@ -16,7 +16,7 @@ using geometry::Tangent;
 
 namespace {
 
-/// Any unit tangent at P: the direction of a vertical ray's plane does not matter, but it must be one.
+/// A unit tangent at P. Vertical rays need one for their plane, and any will do.
 Tangent any_tangent(Space space, const geometry::Point& p) {
   return geometry::normalised_tangent(space, p, std::fabs(p.x) <= std::fabs(p.y) ? Ambient{0, 1, 0} : Ambient{0, 0, 1});
 }

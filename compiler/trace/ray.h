@@ -19,33 +19,33 @@ struct Direction {
   return a.floor.x * b.floor.x + a.floor.y * b.floor.y + geometry::curvature(space) * a.floor.w * b.floor.w + a.z * b.z;
 }
 
-/// A ray of light: after the path length t it is at (X(c·t), z + m·t), X the floor's geodesic from `at` in the unit direction `along`.
-/// c ≥ 0, c² + m² = 1. A vertical ray has c = 0 and any `along`. Source: design §2.
+/// A ray: after the path length t it is at (X(c·t), z + m·t), where X is the floor's geodesic from `at` in the unit direction `along`.
+/// c ≥ 0 and c² + m² = 1. A vertical ray has c = 0 and any `along`. Source: design §2.
 struct Ray {
   geometry::Point at;
   geometry::Tangent along;
   double z = 0;
   double c = 1, m = 0;
-  double t_min = 0;       ///< surfaces of triangles up to here are not met: a ray that leaves a surface starts with kLeave
-  int leaves_wall = -1;   ///< the wall (from 0) on which the ray starts and which it therefore does not meet again, or −1
+  double t_min = 0;     ///< triangles up to this path length are ignored; rays that start on a triangle set it to kRayEpsilon
+  int start_wall = -1;  ///< the wall (from 0) on which the ray starts and which it therefore cannot hit first; −1: none
 };
 
-/// How far a ray that leaves a surface of triangles goes before it can meet one; far above the residual of a hit (≤ 1e-12 in rooms).
-inline constexpr double kLeave = 1e-8;
-inline constexpr double kEndless = std::numeric_limits<double>::infinity();
+/// Offset of rays that start on a triangle: hits nearer than this are ignored. It is far above the residual of a hit (≤ 1e-12 in rooms).
+inline constexpr double kRayEpsilon = 1e-8;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The ray from a position in a direction of any length > 0. The point is put back on its surface, the direction made orthogonal to it.
+/// The ray from a position in a direction of any length > 0. The start is projected onto the space, the direction onto its tangent plane.
 [[nodiscard]] Ray ray_from(geometry::Space space, const geometry::Position& from, const Direction& direction);
 
-/// A piece of a geodesic of the room between two positions: the shortest.
+/// The shortest geodesic between two positions.
 struct Segment {
   Ray ray;
   double length = 0;
 };
-/// In: positions whose floor points are not antipodal. Equal positions give length 0 and any direction.
+/// In: positions whose floor points are not antipodal. Equal positions give length 0 and an arbitrary direction.
 [[nodiscard]] Segment segment_between(geometry::Space space, const geometry::Position& from, const geometry::Position& to);
 
-/// Where the ray is after the path length t, and its direction of travel there.
+/// The ray's position after the path length t, and its unit direction of travel there.
 [[nodiscard]] geometry::Position position_at(geometry::Space space, const Ray& ray, double t);
 [[nodiscard]] Direction direction_at(geometry::Space space, const Ray& ray, double t);
 

@@ -1,5 +1,5 @@
-// What is seen where a path ends. The plain walls, floor and ceiling are answered by rule, not from panel triangles: checkers are exact
-// geometry (cells between geodesics of the axial chart; on walls between arc lengths and heights), so no panel's tessellation shows.
+// The surface at the end of a path. Plain walls, floor and ceiling are evaluated by formula, not from panel triangles. Checkers are exact
+// geometry (cells between geodesics of the axial chart; on walls between arc lengths and heights), so that no tessellation shows.
 #include <cmath>
 
 #include "compiler/geometry/chart.h"
@@ -42,16 +42,16 @@ Direction triangle_normal(Space space, const place::PlacedMesh& mesh, const mesh
 
 void fill_triangle(const TraceScene& scene, const Hit& hit, SurfacePoint& point) {
   const Space space = scene.prism.space;
-  const place::PlacedMesh& mesh = scene.room->parts[hit.part];
+  const place::PlacedMesh& mesh = scene.interior->parts[hit.part];
   const mesh::Triangle& triangle = mesh.triangles[hit.triangle];
   point.kind = mesh.kind;
   point.part = hit.part;
   point.wall = mesh.wall;
-  point.look = mesh.look.empty() ? -1 : mesh.look[hit.triangle];
-  if (point.look >= 0) point.color = scene.room->looks[point.look].color;
+  point.style = mesh.style.empty() ? -1 : mesh.style[hit.triangle];
+  if (point.style >= 0) point.color = scene.interior->styles[point.style].color;
   const Direction normal = unit(space, triangle_normal(space, mesh, triangle, hit.b, point.at.floor));
-  point.outside = inner(space, normal, point.arriving) <= 0;
-  point.normal = point.outside ? normal : -normal;
+  point.front_facing = inner(space, normal, point.incoming) <= 0;
+  point.normal = point.front_facing ? normal : -normal;
   for (int i = 0; i < 3; ++i) {
     if (!mesh.uv.empty())
       for (int j = 0; j < 2; ++j) point.uv[j] += hit.b[i] * mesh.uv[triangle[i]][j];
@@ -59,13 +59,13 @@ void fill_triangle(const TraceScene& scene, const Hit& hit, SurfacePoint& point)
   }
 }
 
-/// Looks up the panel's look and which cell of its checker holds uv (decided like the panels are cut: parity of the cell's numbers).
-/// Textures: uv in repeats, as the panels carry them: the disk chart at true size in the centre, on walls (arc length, z), v downwards.
-void fill_panel(const TraceScene& scene, const Panel& panel, SurfacePoint& point) {
+/// Sets the style of a wall, floor or ceiling, and the colour of the checker's cell at uv by the parity of the cell's numbers, as the
+/// panels are cut. With a texture: uv in repeats, in the disk chart at true size in the centre, on walls (arc length, z), v downwards.
+void fill_shell(const TraceScene& scene, const ShellStyle& panel, SurfacePoint& point) {
   point.part = panel.part;
-  point.look = panel.look;
-  if (panel.look < 0) return;
-  const place::Look& look = scene.room->looks[panel.look];
+  point.style = panel.style;
+  if (panel.style < 0) return;
+  const place::SurfaceStyle& look = scene.interior->styles[panel.style];
   point.color = look.color;
   if (look.material.pattern == scene::Pattern::texture) {
     auto at = std::complex<double>(point.uv[0], point.uv[1]);
@@ -76,8 +76,8 @@ void fill_panel(const TraceScene& scene, const Panel& panel, SurfacePoint& point
   }
   if (look.material.pattern != scene::Pattern::checker) return;
   const double cells = std::floor(point.uv[0] / look.material.cell) + std::floor(point.uv[1] / look.material.cell);
-  point.checker_second = std::fmod(cells, 2) != 0;
-  point.color = point.checker_second ? look.material.second : look.material.color;
+  point.second_color = std::fmod(cells, 2) != 0;
+  point.color = point.second_color ? look.material.second : look.material.color;
 }
 
 }  // namespace
@@ -86,26 +86,26 @@ SurfacePoint surface_at(const TraceScene& scene, const Ray& ray, const Hit& hit)
   const Space space = scene.prism.space;
   SurfacePoint point;
   point.at = position_at(space, ray, hit.t);
-  point.arriving = direction_at(space, ray, hit.t);
-  if (hit.target == Target::triangle) {
+  point.incoming = direction_at(space, ray, hit.t);
+  if (hit.kind == HitKind::triangle) {
     fill_triangle(scene, hit, point);
-  } else if (hit.target == Target::wall) {
+  } else if (hit.kind == HitKind::wall) {
     const room::Wall& wall = scene.prism.walls[hit.wall];
     point.kind = PartKind::wall;
     point.wall = hit.wall;
     point.normal = normal_of_wall(space, wall);
     point.uv[0] = arc_on_wall(space, wall, point.at.floor);
     point.uv[1] = point.at.z;
-    fill_panel(scene, scene.walls[hit.wall], point);
-  } else if (hit.target == Target::floor || hit.target == Target::ceiling) {
-    const bool floor = hit.target == Target::floor;
+    fill_shell(scene, scene.walls[hit.wall], point);
+  } else if (hit.kind == HitKind::floor || hit.kind == HitKind::ceiling) {
+    const bool floor = hit.kind == HitKind::floor;
     point.kind = floor ? PartKind::floor : PartKind::ceiling;
     point.at.z = floor ? 0 : scene.prism.height;
     point.normal = {{0, 0, 0}, floor ? 1.0 : -1.0};
     const auto uv = geometry::axial_from_point(space, point.at.floor);
     point.uv[0] = uv.real();
     point.uv[1] = uv.imag();
-    fill_panel(scene, floor ? scene.floor : scene.ceiling, point);
+    fill_shell(scene, floor ? scene.floor : scene.ceiling, point);
   }
   return point;
 }

@@ -62,7 +62,7 @@ void write_copy_facts(Json& json, const DrawnCopy& copy) {
 }
 
 void write_camera(Json& json, const Product& product) {
-  const place::Eye& eye = product.eye;
+  const place::Camera& eye = product.eye;
   const double aspect = static_cast<double>(eye.width) / eye.height;
   // What glTF has no camera for gets the nearest perspective; the extras carry the truth.
   double half = 1;
@@ -211,7 +211,7 @@ void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
   constexpr double kLumensPerWatt = 683;
   json.key("extensions").object().key("KHR_lights_punctual").object().key("lights").array();
   for (const driver::NativeLamp& lamp : lamps) {
-    const double most = scene::largest(lamp.intensity), whole = most > 0 ? most : 1;
+    const double most = scene::max_channel(lamp.intensity), whole = most > 0 ? most : 1;
     json.object().key("type").string(is_cone(lamp) ? "spot" : "point");
     json.key("color").numbers(floats((1 / whole) * lamp.intensity));
     json.key("intensity").number(kLumensPerWatt * std::numbers::pi * most);
@@ -436,7 +436,7 @@ std::string make_glb(const Product& product, const Layout& layout, const std::st
 }
 
 std::string atlas_png(const Product& product) {
-  ORBC_CHECK(static_cast<int>(product.depth), !=, static_cast<int>(scene::AtlasDepth::exr));
+  ORBC_CHECK(static_cast<int>(product.depth), !=, static_cast<int>(scene::AtlasFormat::exr));
   if (product.atlas16.rgb.empty()) return image_io::encode_png(product.atlas);
   return image_io::encode_png(product.atlas16, product.masked ? &product.atlas : nullptr);
 }

@@ -47,7 +47,7 @@ void write_head(Pen& pen, const driver::Product& product, const PovOptions& opti
 /// The camera's three vectors say everything; look_at and angle would make the picture depend on the handedness of `right`.
 void write_camera(Pen& pen, const driver::Product& product) {
   const exporters::Standpoint at = exporters::standpoint(product);
-  const place::Eye& eye = product.eye;
+  const place::Camera& eye = product.eye;
   const double aspect = static_cast<double>(eye.height) / eye.width;
   pen << "camera {\n  ";
   switch (eye.projection) {
@@ -78,7 +78,7 @@ struct AtlasFiles {
 AtlasFiles atlas_files(const driver::Product& product, const std::string& name) {
   AtlasFiles files;
   if (product.atlas.rgba.empty()) return files;
-  const bool exr = product.depth == scene::AtlasDepth::exr;
+  const bool exr = product.depth == scene::AtlasFormat::exr;
   files.atlas.name = name + (exr ? "-atlas.exr" : "-atlas.png");
   if (product.atlas16.rgb.empty()) {
     image::Image opaque = product.atlas;
@@ -93,7 +93,7 @@ AtlasFiles atlas_files(const driver::Product& product, const std::string& name) 
 
 void write_atlas_pigment(Pen& pen, const driver::Product& product, const AtlasFiles& files, const PovOptions& options) {
   const char* lookup = options.interpolate || product.blended_atlas ? " interpolate 2" : "";
-  const char* kind = product.depth == scene::AtlasDepth::exr ? "exr" : "png";
+  const char* kind = product.depth == scene::AtlasFormat::exr ? "exr" : "png";
   pen << "#declare OrbcAtlas = pigment { ";
   if (files.atlas.name.empty()) {
     pen << "rgb 1";

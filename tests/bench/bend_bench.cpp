@@ -72,7 +72,7 @@ void whole_cover(benchmark::State& state) {
   const auto room = bend::test::regular_room(5, 2, with);
   const auto copies = bend::test::copies_of(room, 4);
   const auto uv = bend::test::plain_uv(room);
-  const auto eye = bend::test::eye_at(room.room.space, 0.35, 2.9, 0.45, -0.2, -0.05);
+  const auto eye = bend::test::eye_at(room.polygon.space, 0.35, 2.9, 0.45, -0.2, -0.05);
   const auto threads = static_cast<std::size_t>(state.range(0));
   const Executor executor = [threads](std::size_t count, const std::function<void(std::size_t)>& task) {
     std::vector<std::thread> all;

@@ -31,7 +31,7 @@ void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator
 
 // Rays of a small picture, followed through the mirrors: what a stream of camera rays takes a piece.
 std::vector<trace::Ray> camera_rays() {
-  place::Eye eye = opened().eye;
+  place::Camera eye = opened().eye;
   eye.width = 320, eye.height = 240;
   std::vector<trace::Ray> rays;
   for (int y = 0; y < eye.height; ++y)
@@ -57,7 +57,7 @@ void shadow(benchmark::State& state) {
     const geometry::Position at = trace::position_at(scene.prism.space, ray, hit.t);
     const trace::Segment way = trace::segment_between(scene.prism.space, at, lighting.lamps->lamps.front().centre);
     rays.push_back(way.ray);
-    rays.back().t_min = trace::kLeave;
+    rays.back().t_min = trace::kRayEpsilon;
     lengths.push_back(way.length);
   }
   for (auto _ : state)

@@ -55,8 +55,8 @@ void bounce(const TraceScene& scene, Ray ray, int bounces, const Find& find, Wor
   for (int i = 0;; ++i) {
     const Hit hit = find(ray);
     ++work.rays;
-    work.hits += hit.target == Target::triangle;
-    if (hit.target != Target::wall || i >= bounces) return;
+    work.hits += hit.kind == HitKind::triangle;
+    if (hit.kind != HitKind::wall || i >= bounces) return;
     ray = reflected_in_wall(scene.prism, ray, hit.t, hit.wall);
   }
 }
@@ -74,8 +74,8 @@ Work streams(const Case& c, std::size_t begin, std::size_t end, int bounces) {
       work.rays += hits.size();
       std::size_t left = 0;
       for (std::size_t j = 0; j < hits.size(); ++j) {
-        work.hits += hits[j].target == Target::triangle;
-        if (hits[j].target == Target::wall && i < bounces)
+        work.hits += hits[j].kind == HitKind::triangle;
+        if (hits[j].kind == HitKind::wall && i < bounces)
           going[left++] = reflected_in_wall(c.scene.prism, going[j], hits[j].t, hits[j].wall);
       }
       going.resize(left);
@@ -130,7 +130,7 @@ struct Embree {
     rtcIntersect1(scene, &context, &query);
     Hit hit;
     if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
-      hit.target = Target::triangle;
+      hit.kind = HitKind::triangle;
       hit.t = query.ray.tfar;
       hit.triangle = static_cast<int>(query.hit.primID);
       hit.b[1] = query.hit.u;
@@ -138,7 +138,7 @@ struct Embree {
       return hit;
     }
     const Exit exit = exit_of(room.prism, ray);
-    hit.target = exit.surface >= 0 ? Target::wall : exit.surface == kFloor ? Target::floor : Target::ceiling;
+    hit.kind = exit.surface >= 0 ? HitKind::wall : exit.surface == kFloor ? HitKind::floor : HitKind::ceiling;
     hit.t = exit.t;
     hit.wall = exit.surface;
     return hit;
@@ -257,7 +257,8 @@ int main(int argc, char** argv) {
       BvhCounts counts;
       std::uint64_t hits = 0;
       for (const Ray& ray : c.rays)
-        hits += c.scene.objects->closest_counted(ray, c.name == "S2" && ray.c > 0 ? kPi / ray.c : kEndless, counts).triangle != kNone;
+        hits +=
+            c.scene.objects->closest_counted(ray, c.name == "S2" && ray.c > 0 ? kPi / ray.c : kInfinity, counts).triangle != kNoTriangle;
       const double n = static_cast<double>(c.rays.size());
       std::printf("%s: a camera ray visits %.2f nodes, %.2f blocks, %.3f candidates for %.3f hits\n", c.name.c_str(),
                   double(counts.nodes) / n, double(counts.blocks) / n, double(counts.candidates) / n, double(hits) / n);

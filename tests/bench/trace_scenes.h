@@ -12,7 +12,7 @@ using namespace testing;
 
 struct Case {
   std::string name;
-  place::PlacedRoom placed;
+  place::Interior placed;
   TraceScene scene;
   std::vector<Ray> rays;            ///< 800 × 600, in tiles of 16 × 16 as pictures are drawn
 };
@@ -44,7 +44,7 @@ inline Case make_case(geometry::Space space, int steps, int around, const Execut
                                                 : regular_room(space, 5, 2);
   c.placed = furnished(std::move(room), 1, 0.9);
   c.placed.parts.push_back(torus_knot(space, {}, 0.21, 0.065, 0.5, steps, around));
-  c.placed.looks.resize(1);
+  c.placed.styles.resize(1);
   c.rays = camera_rays(space, 800, 600);
   (void)execute;
   return c;

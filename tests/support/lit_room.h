@@ -26,13 +26,13 @@ inline scene::Scene lit_scene(const std::string& orbifold, scene::LampKind kind,
 /// A room with its light.
 struct Lit {
   scene::Scene scene;
-  place::PlacedRoom room;
+  place::Interior room;
   light::LightingContext lighting;
 };
 
 /// In: the most mirrors on a path from a lamp. No image of a lamp is left out.
 inline Lit lit(scene::Scene scene, int bounces) {
-  Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room, {}};
+  Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().interior, {}};
   light::LightOptions options;
   options.bounces = bounces;
   options.cull_below = 0;

@@ -12,13 +12,13 @@
 namespace orbc::test {
 
 /// An eye at (0, 0, z) that looks in azimuth `yaw` and elevation `pitch`, head tilted by `roll` (radians).
-inline place::Eye looking(double yaw, double pitch, double roll, double z) {
+inline place::Camera looking(double yaw, double pitch, double roll, double z) {
   const auto c = [](double v) { return std::cos(v); };
   const auto s = [](double v) { return std::sin(v); };
   const geometry::Vector3 forward{c(yaw) * c(pitch), s(yaw) * c(pitch), s(pitch)};
   const geometry::Vector3 level{s(yaw), -c(yaw), 0};
   const geometry::Vector3 upright = cross(level, forward);
-  place::Eye eye;
+  place::Camera eye;
   eye.z = z;
   eye.forward = forward;
   eye.right = c(roll) * level + s(roll) * upright;

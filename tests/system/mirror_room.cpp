@@ -20,7 +20,7 @@ using namespace orbc;
 std::string mirror_quad(const driver::Opened& opened, const place::PlacedMirror& mirror) {
   const geometry::Isometry eye_from_room = geometry::inverse(opened.eye.room_from_eye);
   const auto corner = [&](int side, int level) {
-    const geometry::Point p = eye_from_room * room::point_on_wall(opened.room->room, mirror.wall, mirror.span[side]);
+    const geometry::Point p = eye_from_room * room::point_on_wall(opened.room->polygon, mirror.wall, mirror.span[side]);
     return fmt::format("<{:.17g},{:.17g},{:.17g}>", p.x, p.y, mirror.height[level]);
   };
   const scene::Color c = mirror.throughput;
@@ -48,14 +48,14 @@ std::string matte_part(const driver::Opened& opened, const place::PlacedMesh& pa
   }
   for (std::size_t t = 0; t < part.triangles.size(); ++t) {
     const auto& c = normals.corners[t];
-    faces += fmt::format(", <{},{},{}>,{}", c[0], c[1], c[2], part.look[t]);
+    faces += fmt::format(", <{},{},{}>,{}", c[0], c[1], c[2], part.style[t]);
   }
-  for (const place::Look& look : opened.room->looks)
+  for (const place::SurfaceStyle& look : opened.room->styles)
     looks += fmt::format(", texture {{ pigment {{ rgb {} }} finish {{ ambient 0 diffuse 1 emission rgb {} }} }}", vector(look.color),
                          vector(opened.scene.exposure * opened.scene.ambient));
   return fmt::format(
       "mesh2 {{ vertex_vectors {{ {0}{1} }} normal_vectors {{ {0}{2} }} texture_list {{ {3}{4} }} face_indices {{ {5}{6} }} }}\n",
-      normals.vertices.size(), points, directions, opened.room->looks.size(), looks, part.triangles.size(), faces);
+      normals.vertices.size(), points, directions, opened.room->styles.size(), looks, part.triangles.size(), faces);
 }
 
 /// Radiance of a matte surface is albedo · E/π with E = Φ·cosθ/(4πr²); POV-Ray shows albedo · c·cosθ · 2/(1 + (r/D)²), which for D ≪ r is
@@ -70,7 +70,7 @@ std::string point_lamp(const driver::Opened& opened, const light::PlacedLamp& la
 
 /// The room and its lamps, instead of the room with its light in an atlas.
 Result<std::string> lit_room(const driver::Opened& opened) {
-  const auto hung = light::place_lamps(opened.scene, opened.room->room);
+  const auto hung = light::place_lamps(opened.scene, opened.room->polygon);
   if (!hung) return hung.error();
   std::string text;
   for (const place::PlacedMesh& part : opened.room->parts) text += matte_part(opened, part);

@@ -109,7 +109,7 @@ std::string json(const Vector3& v) { return fmt::format("[{},{},{}]", v.x, v.y, 
 
 void print_facts(const driver::Product& product, const std::vector<Ball>& balls) {
   const exporters::Standpoint at = exporters::standpoint(product);
-  const place::Eye& eye = product.eye;
+  const place::Camera& eye = product.eye;
   fmt::print(
       "{{\"width\":{},\"height\":{},\"fov\":{},\"projection\":{},\"location\":{},\"forward\":{},\"right\":{},\"up\":{},\"background\":[{},{"
       "},{}],\"balls\":[",

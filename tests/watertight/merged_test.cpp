@@ -51,7 +51,7 @@ driver::Opened open(const char* path, int max_bounces) {
   auto opened = test::open_or_fail(std::string(ORBC_SOURCE_DIR "/") + path);
   opened.scene.cover.max_bounces = max_bounces;
   opened.scene.camera.size = {200, 150};
-  opened.eye = place::make_eye(opened.scene, *opened.room).value();
+  opened.eye = place::make_camera(opened.scene, *opened.room).value();
   return opened;
 }
 

@@ -30,11 +30,11 @@ void move_eye(driver::Opened& opened, std::mt19937& random, int width, int heigh
   scene.camera.size = {width, height};
   scene.camera.projection = scene::Projection::perspective;
   scene.camera.look_at.value = scene::LookDirection{};
-  const double far = room.room.circumradius;
+  const double far = room.polygon.circumradius;
   for (int trial = 0; trial < 1000; ++trial) {
     scene.camera.place.floor = scene::AtPolar{far * std::sqrt(unit(random)), Angle::from_degrees(360 * unit(random))};
     scene.camera.place.z = room.height * (0.03 + 0.94 * unit(random));
-    const auto eye = place::make_eye(scene, room);
+    const auto eye = place::make_camera(scene, room);
     if (!eye) continue;
     opened.eye = *eye;
     const double yaw = 2 * M_PI * unit(random), pitch = std::asin(1.9 * unit(random) - 0.95) * unit(random),
@@ -62,7 +62,7 @@ Vector3 vertex(const driver::Product& product, std::uint32_t i) {
 /// The corner of a box of pixels that holds the triangle, cut at a plane just before the eye.
 struct Box {
   double low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30};
-  void add(const place::Eye& eye, const Vector3& p) {
+  void add(const place::Camera& eye, const Vector3& p) {
     const double f = dot(p, eye.forward), wide = std::tan(eye.fov.radians / 2);
     const double x = (dot(p, eye.right) / f / wide + 1) * eye.width / 2, y = eye.height / 2.0 - dot(p, eye.up) / f / wide * eye.width / 2;
     low[0] = std::min(low[0], x), high[0] = std::max(high[0], x);
@@ -70,7 +70,7 @@ struct Box {
   }
 };
 
-Box box_of(const place::Eye& eye, const Vector3 (&corner)[3]) {
+Box box_of(const place::Camera& eye, const Vector3 (&corner)[3]) {
   Box box;
   for (int k = 0; k < 3; ++k) {
     const Vector3 &a = corner[k], &b = corner[(k + 1) % 3];
@@ -102,7 +102,7 @@ namespace {
 /// Calls hit(triangle, pixel, direction) for every pixel whose centre sees a triangle, nearest or not.
 template <class Hit>
 void for_hits(const driver::Product& product, const Hit& hit) {
-  const place::Eye& eye = product.eye;
+  const place::Camera& eye = product.eye;
   std::vector<Vector3> rays;
   for (int y = 0; y < eye.height; ++y)
     for (int x = 0; x < eye.width; ++x) rays.push_back(place::direction_through(eye, x + 0.5, y + 0.5));
@@ -165,7 +165,7 @@ std::vector<scene::Color> picture(const driver::Product& product) {
 }
 
 Holes holes(const driver::Opened& opened, const driver::Product& product, const trace::TraceScene& scene) {
-  const place::Eye& eye = opened.eye;
+  const place::Camera& eye = opened.eye;
   const std::vector<bool> seen = covered(product);
   trace::FollowOptions options;
   options.max_bounces = opened.scene.cover.max_bounces;

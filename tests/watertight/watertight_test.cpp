@@ -42,7 +42,7 @@ void look_from(int eyes, unsigned seed) {
     const int here =
         eyes * static_cast<int>(i + 1) / static_cast<int>(paths.size()) - eyes * static_cast<int>(i) / static_cast<int>(paths.size());
     for (int n = 0; n < here; ++n, ++looked) {
-      opened.scene.cover.max_bounces = opened.room->room.space == geometry::Space::spherical ? most + 3 : 1 + n % most;
+      opened.scene.cover.max_bounces = opened.room->polygon.space == geometry::Space::spherical ? most + 3 : 1 + n % most;
       test::move_eye(opened, random, 64, 48);
       driver::CompileOptions options;
       options.bend.tolerance_px = n % 2 ? 0.25 : 0.05;
@@ -102,7 +102,7 @@ TEST_CASE("no vertex lies within an edge that has no neighbour", "[watertight]")
   for (const std::string& path : rooms(true)) {
     auto opened = test::open_or_fail(path);
     opened.scene.cover.max_bounces =
-        std::min(opened.scene.cover.max_bounces, opened.room->room.space == geometry::Space::spherical ? 6 : 2);
+        std::min(opened.scene.cover.max_bounces, opened.room->polygon.space == geometry::Space::spherical ? 6 : 2);
     test::move_eye(opened, random, 320, 240);
     // A frame is a surface of its own, which stands before its wall and shares no edge with it; its open back meets its mirror image. And
     // bending treats part by part.

@@ -39,7 +39,7 @@ Complex follow(double k, Complex z, Complex direction, double length, int steps,
 TEST_CASE("bent positions are where integrated geodesics from the eye end", "[bend]") {
   const auto [corners, order, sheets] = GENERATE(table<int, int, int>({{5, 2, 0}, {3, 7, 0}, {3, 2, 3}}));
   const auto room = regular_room(corners, order);
-  const Space space = room.room.space;
+  const Space space = room.polygon.space;
   const double k = geometry::curvature(space);
   auto copies = copies_of(room, 3);
   if (sheets > 0) copies = with_sheets(copies, 3, sheets);
@@ -50,7 +50,7 @@ TEST_CASE("bent positions are where integrated geodesics from the eye end", "[be
   for (int trial = 0; trial < (sheets > 0 ? 1200 : 400); ++trial) {
     const auto& copy = copies[random() % copies.size()];
     // The eye's frame may be turned, too.
-    place::Eye eye;
+    place::Camera eye;
     eye.room_from_eye =
         geometry::translation_to(space, polar(space, 0.4 * unit(random), 7 * unit(random))) * geometry::rotation(space, 7 * unit(random));
     eye.z = unit(random);

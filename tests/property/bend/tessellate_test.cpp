@@ -20,12 +20,12 @@ struct Case {
 const Case kCases[] = {
     {"*22222", 5, 2, 3, 0}, {"*222", 3, 2, 3, 2}, {"*666", 3, 6, 4, 0}, {"*(20)(20)(20)", 3, 20, 2, 0}, {"*4^8", 8, 4, 2, 0}};
 
-std::vector<cover::Copy> copies_for(const Case& of, const PlacedRoom& room) {
+std::vector<cover::Copy> copies_for(const Case& of, const Interior& room) {
   auto copies = copies_of(room, of.length);
   return of.sheets > 0 ? with_sheets(copies, 3, of.sheets) : copies;
 }
 
-CopyMap map_for(const place::Eye& eye, const cover::Copy& copy) {
+CopyMap map_for(const place::Camera& eye, const cover::Copy& copy) {
   return {View::eye, {eye.room_from_eye.space, geometry::matrix(inverse(eye.room_from_eye) * copy.cover_from_room), copy.sheet}};
 }
 
@@ -74,12 +74,12 @@ Flat flat_of(const CopyMap& map, const ScreenMetric& metric, const EdgeMesh& par
 struct Pixel {
   double x = 0, y = 0, depth = 0;
 };
-Pixel project(const place::Eye& eye, const Vector3& p) {
+Pixel project(const place::Camera& eye, const Vector3& p) {
   const Vector3 d = p - Vector3{0, 0, eye.z};
   const double focal = eye.width / 2 / std::tan(eye.fov.radians / 2), depth = dot(d, eye.forward);
   return {focal * dot(d, eye.right) / depth, focal * dot(d, eye.up) / depth, depth};
 }
-bool in_picture(const place::Eye& eye, const Pixel& p) {
+bool in_picture(const place::Camera& eye, const Pixel& p) {
   return p.depth > 0 && std::fabs(p.x) < eye.width / 2.0 && std::fabs(p.y) < eye.height / 2.0;
 }
 double pixel_distance(const Pixel& p, const Pixel& a, const Pixel& b) {
@@ -88,7 +88,7 @@ double pixel_distance(const Pixel& p, const Pixel& a, const Pixel& b) {
   return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 /// Distance in the picture of a point from the drawn segment, as far as it lies before the camera.
-double seen_distance(const place::Eye& eye, const Vector3& p, Vector3 a, Vector3 b) {
+double seen_distance(const place::Camera& eye, const Vector3& p, Vector3 a, Vector3 b) {
   const Vector3 e{0, 0, eye.z};
   const double near = 1e-3, da = dot(a - e, eye.forward), db = dot(b - e, eye.forward);
   if (da < near && db < near) return 1e9;
@@ -96,7 +96,7 @@ double seen_distance(const place::Eye& eye, const Vector3& p, Vector3 a, Vector3
   if (db < near) b = b + ((near - db) / (da - db)) * (a - b);
   return pixel_distance(project(eye, p), project(eye, a), project(eye, b));
 }
-double seen_distance(const place::Eye& eye, const Vector3& p, const Vector3 (&t)[3]) {
+double seen_distance(const place::Camera& eye, const Vector3& p, const Vector3 (&t)[3]) {
   const Vector3 e{0, 0, eye.z}, d = p - e;
   const double s0 = dot(cross(t[0] - e, t[1] - e), d), s1 = dot(cross(t[1] - e, t[2] - e), d), s2 = dot(cross(t[2] - e, t[0] - e), d);
   if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0)) return 0;
@@ -110,9 +110,9 @@ double off_surface(const ScreenMetric& metric, const Vector3& p, const Vector3 (
   return std::fabs(dot(p - t[0], normal)) / length(normal) / length(d) * pixels_per_radian_at(metric, normalised(d));
 }
 
-std::vector<EdgeMesh> edge_meshes_of(const PlacedRoom& room) {
+std::vector<EdgeMesh> edge_meshes_of(const Interior& room) {
   std::vector<EdgeMesh> parts;
-  for (std::size_t i = 0; i < room.parts.size(); ++i) parts.push_back(edge_mesh(room.room.space, room.parts[i], 0));
+  for (std::size_t i = 0; i < room.parts.size(); ++i) parts.push_back(edge_mesh(room.polygon.space, room.parts[i], 0));
   return parts;
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("every chord and every triangle lies within the tolerance, seen in the
   const auto parts = edge_meshes_of(room);
   double worst = 0, deepest = 0;
   for (int view = 0; view < 2; ++view) {
-    const auto eye = eye_at(room.room.space, 0.1 + 0.15 * view, 1.0 + 2 * view, 0.3 + 0.2 * view, 1.7 * view, 0.2 - 0.2 * view);
+    const auto eye = eye_at(room.polygon.space, 0.1 + 0.15 * view, 1.0 + 2 * view, 0.3 + 0.2 * view, 1.7 * view, 0.2 - 0.2 * view);
     const ScreenMetric metric = screen_metric(eye, {});
     for (const auto& copy : copies_for(of, room)) {
       const CopyMap map = map_for(eye, copy);
@@ -175,7 +175,7 @@ TEST_CASE("a part has no cracks inside: every edge has two sides or lies on the 
   with.knot_along = 24;
   const auto room = regular_room(of.corners, of.order, with);
   const auto parts = edge_meshes_of(room);
-  const auto eye = eye_at(room.room.space, 0.17, 1.0, 0.37, 0.4, -0.2);
+  const auto eye = eye_at(room.polygon.space, 0.17, 1.0, 0.37, 0.4, -0.2);
   for (const auto& copy : copies_for(of, room)) {
     const CopyMap map = map_for(eye, copy);
     for (const EdgeMesh& part : parts) {
@@ -190,7 +190,7 @@ TEST_CASE("a part has no cracks inside: every edge has two sides or lies on the 
         if (flat.fixed[edge.first] && flat.fixed[edge.second]) continue;  // the circle around a torn axis
         if (part.mesh->kind == PartKind::object) FAIL("a closed mesh has got a hole");
         bool on_border = false;
-        for (const auto& wall : room.room.walls) {
+        for (const auto& wall : room.polygon.walls) {
           on_border |=
               std::fabs(value_at(wall.line, flat.v[edge.first])) < 1e-12 && std::fabs(value_at(wall.line, flat.v[edge.second])) < 1e-12;
         }
@@ -205,20 +205,20 @@ TEST_CASE("neighbouring copies split their common wall alike and meet there", "[
   CAPTURE(of.name);
   const auto room = regular_room(of.corners, of.order);
   const auto parts = edge_meshes_of(room);
-  const auto eye = eye_at(room.room.space, 0.17, 1.0, 0.37, 0.4, -0.2);
+  const auto eye = eye_at(room.polygon.space, 0.17, 1.0, 0.37, 0.4, -0.2);
   double worst = 0;
   std::size_t points = 0;
   for (const auto& copy : copies_for(of, room)) {
-    for (std::size_t w = 0; w < room.room.walls.size(); ++w) {
+    for (std::size_t w = 0; w < room.polygon.walls.size(); ++w) {
       cover::Copy other = copy;
-      other.cover_from_room = copy.cover_from_room * geometry::reflection(room.room.space, room.room.walls[w].line);
+      other.cover_from_room = copy.cover_from_room * geometry::reflection(room.polygon.space, room.polygon.walls[w].line);
       const CopyMap maps[2] = {map_for(eye, copy), map_for(eye, other)};
       for (const EdgeMesh& part : {parts[0], parts[1]}) {
         std::map<std::pair<double, double>, Vector3> met[2];
         for (int side = 0; side < 2; ++side) {
           const Flat flat = flat_of(maps[side], screen_metric(eye, {}), part);
           for (std::size_t i = 0; i < flat.v.size(); ++i) {
-            if (std::fabs(value_at(room.room.walls[w].line, flat.v[i])) < 1e-13 && !flat.fixed[i])
+            if (std::fabs(value_at(room.polygon.walls[w].line, flat.v[i])) < 1e-13 && !flat.fixed[i])
               met[side][{flat.v[i].x, flat.v[i].y}] = flat.at[i];
           }
         }
@@ -243,7 +243,7 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
   const auto room = regular_room(3, 2, with);
   const auto parts = edge_meshes_of(room);
   auto copies = with_sheets(copies_of(room, 3), 3, 3);
-  const double middle = room.room.circumradius / 2;
+  const double middle = room.polygon.circumradius / 2;
   const struct {
     double r, phi;
   } eyes[] = {{0, 0},
@@ -253,11 +253,11 @@ TEST_CASE("an axis may hit a face, an edge or a corner", "[bend]") {
               {middle, 1e-9},
               {middle, 1e-5},
               {middle, std::numbers::pi},
-              {room.room.inradius * 0.999999, std::numbers::pi},
-              {room.room.circumradius * 0.9999999, 0},
+              {room.polygon.inradius * 0.999999, std::numbers::pi},
+              {room.polygon.circumradius * 0.9999999, 0},
               {0.2, 0.35}};
   for (const auto& [r, phi] : eyes) {
-    auto eye = eye_at(room.room.space, r, phi, 0.4, 0.3, -0.1);
+    auto eye = eye_at(room.polygon.space, r, phi, 0.4, 0.3, -0.1);
     eye.projection = scene::Projection::panorama;
     BendOptions fine;
     fine.tolerance_px = 0.04;

@@ -26,7 +26,7 @@ int covers(const BentCover& cover, double x, double y) {
 }
 
 /// All around and fine: what is not in the picture, or errs along the line of sight only, may overlap a little by intention.
-BentCover floors(PlacedRoom& room, const std::vector<cover::Copy>& copies, place::Eye eye) {
+BentCover floors(Interior& room, const std::vector<cover::Copy>& copies, place::Camera eye) {
   room.parts.resize(1);
   eye.projection = scene::Projection::panorama;
   BendOptions options;
@@ -42,7 +42,7 @@ TEST_CASE("copies tile what they reach without gap or overlap", "[bend]") {
   const auto [corners, order, length, reach] =
       GENERATE(table<int, int, int, double>({{5, 2, 5, 2.5}, {4, 2, 6, 3.0}, {3, 6, 9, 2.0}, {6, 2, 4, 2.5}}));
   auto room = regular_room(corners, order);
-  const auto cover = floors(room, copies_of(room, length), eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1));
+  const auto cover = floors(room, copies_of(room, length), eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1));
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
   int once = 0;
@@ -58,9 +58,9 @@ TEST_CASE("on the sphere the copies fill 4π once on every sheet", "[bend]") {
   auto room = regular_room(3, 2);
   const auto copies = copies_of(room, 3);
   double whole = 0;
-  for (const auto& corner : room.room.corners) whole += corner.angle;
+  for (const auto& corner : room.polygon.corners) whole += corner.angle;
   CHECK(copies.size() * (whole - std::numbers::pi) == Approx(4 * std::numbers::pi));
-  const auto cover = floors(room, with_sheets(copies, 3, 2), eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1));
+  const auto cover = floors(room, with_sheets(copies, 3, 2), eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1));
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int sheet = 0; sheet < 3; ++sheet) {

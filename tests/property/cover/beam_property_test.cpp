@@ -46,28 +46,28 @@ std::string random_orbifold(std::mt19937& random) {
 }
 
 /// An eye anywhere in the room: a mixture of its corners and its centre; now and then close to a corner or a wall.
-place::Eye random_eye(const place::PlacedRoom& room, std::mt19937& random) {
+place::Camera random_eye(const place::Interior& room, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.01, 1);
   geometry::Ambient at{unit(random) * (random() % 3 ? 1 : 0.01), 0, 0};
   const double power = random() % 3 ? 1 : 12;
-  for (const auto& p : room.room.outline) at = at + std::pow(unit(random) * unit(random), power) * p;
-  place::Eye eye;
-  const auto point = geometry::normalised_point(room.room.space, (room.room.space == Space::euclidean ? 1 / at.w : 1.0) * at);
-  eye.room_from_eye = geometry::translation_to(room.room.space, point) * geometry::rotation(room.room.space, 6.28 * unit(random));
+  for (const auto& p : room.polygon.outline) at = at + std::pow(unit(random) * unit(random), power) * p;
+  place::Camera eye;
+  const auto point = geometry::normalised_point(room.polygon.space, (room.polygon.space == Space::euclidean ? 1 / at.w : 1.0) * at);
+  eye.room_from_eye = geometry::translation_to(room.polygon.space, point) * geometry::rotation(room.polygon.space, 6.28 * unit(random));
   eye.z = 0.5;
   return eye;
 }
 
-std::vector<cover::Copy> beams_of(const place::PlacedRoom& room, const place::Eye& eye, int bounces) {
+std::vector<cover::Copy> beams_of(const place::Interior& room, const place::Camera& eye, int bounces) {
   const auto copies = cover::unfold_by_beams(room, eye, {bounces, 0, 0, {}});
   if (!copies) FAIL(to_text(copies.error()));
   return *copies;
 }
 
 /// S²: past the antipode, and past the eye itself.
-int bounces_for(const place::PlacedRoom& room) {
-  if (room.room.space == Space::spherical) return 2 * static_cast<int>(notation::longest_length(room.room.orbifold).value()) + 3;
-  return room.room.space == Space::euclidean ? 12 : room.room.walls.size() == 3 ? 9 : room.room.walls.size() < 6 ? 5 : 4;
+int bounces_for(const place::Interior& room) {
+  if (room.polygon.space == Space::spherical) return 2 * static_cast<int>(notation::longest_length(room.polygon.orbifold).value()) + 3;
+  return room.polygon.space == Space::euclidean ? 12 : room.polygon.walls.size() == 3 ? 9 : room.polygon.walls.size() < 6 ? 5 : 4;
 }
 
 bool holds(const cover::Wedge& w, double angle) {
@@ -151,17 +151,17 @@ TEST_CASE("in rooms that are no orbifolds every bearing meets the walls of its w
     for (int ray = 0; ray < 200; ++ray) {
       const double angle = angles(random);
       // Follows the ray in the room itself: the wall met first, then its mirror image.
-      const Space space = room.room.space;
+      const Space space = room.polygon.space;
       geometry::Point at = eye.room_from_eye * geometry::Point();
       geometry::Tangent along = eye.room_from_eye * geometry::Tangent(0, std::cos(angle), std::sin(angle));
       cover::Word word;
       for (int bounce = 0; bounce < 7; ++bounce) {
         double best = 1e9;
         int wall = -1;
-        for (int i = 0; i < static_cast<int>(room.room.walls.size()); ++i) {
+        for (int i = 0; i < static_cast<int>(room.polygon.walls.size()); ++i) {
           if (!word.empty() && word.back() == i) continue;
           // Zero of l_P·cosκ s + l_V·sinκ s.
-          const auto& line = room.room.walls[static_cast<std::size_t>(i)].line;
+          const auto& line = room.polygon.walls[static_cast<std::size_t>(i)].line;
           const double p = value_at(line, at), v = value_at(line, along);
           double s = 1e9;
           if (space == Space::spherical) s = std::atan2(p, -v);
@@ -170,7 +170,7 @@ TEST_CASE("in rooms that are no orbifolds every bearing meets the walls of its w
         }
         const auto next = geometry::point_along(space, at, along, best);
         const auto direction = geometry::direction_along(space, at, along, best);
-        const auto mirror = room::reflection_in_wall(room.room, wall);
+        const auto mirror = room::reflection_in_wall(room.polygon, wall);
         at = mirror * next;
         along = geometry::normalised_tangent(space, at, mirror * direction);
         word.push_back(static_cast<std::uint8_t>(wall));
@@ -194,15 +194,15 @@ TEST_CASE("of mirrors above each other each ray has its own, in one piece of the
   for (int trial = 0; trial < 40; ++trial) {
     const std::string text = random_orbifold(random);
     auto room = mirror_room(text, true);
-    const Space space = room.room.space;
-    std::vector<double> divided(room.room.walls.size(), 2);   // the height that divides a wall, or one above all
+    const Space space = room.polygon.space;
+    std::vector<double> divided(room.polygon.walls.size(), 2);   // the height that divides a wall, or one above all
     const std::size_t walls = room.mirrors.size();
     for (std::size_t i = 0; i < walls; ++i) {
       if (random() % 2) continue;
       const auto wall = static_cast<std::size_t>(room.mirrors[i].wall);
       divided[wall] = 0.2 + 0.6 * unit(random);
       room.mirrors[i].height[1] = divided[wall];
-      room.mirrors.push_back({room.mirrors[i].wall, {0, room.room.walls[wall].length}, {divided[wall], 1}, {0.5, 0.5, 0.5}});
+      room.mirrors.push_back({room.mirrors[i].wall, {0, room.polygon.walls[wall].length}, {divided[wall], 1}, {0.5, 0.5, 0.5}});
     }
     const auto eye = random_eye(room, random);
     INFO(text << " trial " << trial);
@@ -217,21 +217,21 @@ TEST_CASE("of mirrors above each other each ray has its own, in one piece of the
       for (int bounces = 1; bounces <= most; ++bounces) {
         double best = 1e9;
         int wall = -1;
-        for (int i = 0; i < static_cast<int>(room.room.walls.size()); ++i) {
+        for (int i = 0; i < static_cast<int>(room.polygon.walls.size()); ++i) {
           if (i == last && space != Space::spherical) continue;
-          const auto& line = room.room.walls[static_cast<std::size_t>(i)].line;
+          const auto& line = room.polygon.walls[static_cast<std::size_t>(i)].line;
           const double p = i == last ? 0 : value_at(line, at), v = value_at(line, along);
           double s = 1e9;
           if (space == Space::spherical) s = i == last ? M_PI : std::atan2(p, -v);
           else if (v < 0 && (space == Space::euclidean || -v > p)) s = geometry::atan_k(space, -p / v);
           if (s > 0 && s < best) best = s, wall = i;
         }
-        if (wall < 0 || !room.room.walls[static_cast<std::size_t>(wall)].reflects) break;
+        if (wall < 0 || !room.polygon.walls[static_cast<std::size_t>(wall)].reflects) break;
         length += best;
         const double z = eye.z + slope * length;
         if (z < 0.001 || z > 0.999 || std::fabs(z - divided[static_cast<std::size_t>(wall)]) < 1e-6) break;
         weight *= z > divided[static_cast<std::size_t>(wall)] ? 0.5 : 0.9;
-        const auto mirror = room::reflection_in_wall(room.room, wall);
+        const auto mirror = room::reflection_in_wall(room.polygon, wall);
         const auto next = geometry::point_along(space, at, along, best);
         const auto direction = geometry::direction_along(space, at, along, best);
         at = mirror * next;

@@ -22,7 +22,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 struct Lit {
-  place::PlacedRoom room;
+  place::Interior room;
   light::LightingContext lighting;
 };
 
@@ -36,7 +36,7 @@ Lit lit(const char* notation, double height, bool mirrors, scene::LampKind kind 
   lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
   lamp.place.z = 0.6 * height;
   s.lamps = {lamp};
-  Lit l{place::furnish(s, room::realise(s.orbifold, s.room.shape).value()).value().room, {}};
+  Lit l{place::furnish(s, room::realise(s.orbifold, s.room.shape).value()).value().interior, {}};
   light::LightOptions options;
   options.bounces = 0, options.indirect_bounces = 4, options.cull_below = 0;
   l.lighting = light::prepare_light(s, l.room, options).value();
@@ -51,8 +51,8 @@ TEST_CASE("guided directions weigh the hemisphere as the cosine does", "[light]"
       const Lit l = lit(notation, 0.8, mirrors);
       surface::Random random(11);
       for (int place = 0; place < 6; ++place) {
-        const double phi = 2 * kPi * random.next(), r = place::reach(l.room.room, phi) * random.next();
-        const geometry::Point at = geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
+        const double phi = 2 * kPi * random.next(), r = place::distance_to_boundary(l.room.polygon, phi) * random.next();
+        const geometry::Point at = geometry::point_along(l.room.polygon.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
         const surface::ShadingPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
         const light::Guide guide = light::guide_at(l.lighting, point);
         double ones = 0, heights = 0, squares = 0;
@@ -73,7 +73,7 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
   for (const char* notation : {"*222", "*2222", "*22222"}) {
     const Lit l = lit(notation, 0.8, false);
     const geometry::Position lamp = l.lighting.lamps->lamps[0].centre;
-    const Space space = l.room.room.space;
+    const Space space = l.room.polygon.space;
     surface::Random random(5);
     constexpr int kCount = 400000;
     double by_directions = 0;
@@ -83,7 +83,7 @@ TEST_CASE("a lamp seen from where it shines: both ways of counting its light agr
       const trace::Ray ray = trace::ray_from(space, lamp, surface::to_ambient(frame, {h * std::cos(turn), h * std::sin(turn), z}));
       const trace::Hit hit = trace::closest(l.lighting.scene, ray);
       const geometry::Position at = trace::position_at(space, ray, hit.t);
-      by_directions += hit.target == trace::Target::floor && geometry::distance(space, at.floor, {}) < 0.25;
+      by_directions += hit.kind == trace::HitKind::floor && geometry::distance(space, at.floor, {}) < 0.25;
     }
     by_directions *= 10.0 / kCount;
     double by_falloff = 0;
@@ -106,7 +106,7 @@ TEST_CASE("the light of a lamp, asked at random places of a closed room, is its 
     for (const scene::LampKind kind :
          {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::disk, scene::LampKind::rectangle, scene::LampKind::spot}) {
       const Lit l = lit(notation, 1, false, kind);
-      const room::Room& room = l.room.room;
+      const room::Room& room = l.room.polygon;
       surface::Random random(17);
       double sum = 0, squares = 0;
       const auto add = [&](const surface::ShadingPoint& point, double area) {
@@ -115,7 +115,7 @@ TEST_CASE("the light of a lamp, asked at random places of a closed room, is its 
       };
       const int kCount = kind == scene::LampKind::spot ? 240000 : 40000;  // little of the room is lit by a spot
       for (int i = 0; i < kCount; ++i) {
-        const double phi = 2 * kPi * random.next(), reach = place::reach(room, phi), r = reach * random.next();
+        const double phi = 2 * kPi * random.next(), reach = place::distance_to_boundary(room, phi), r = reach * random.next();
         const geometry::Point at = geometry::point_along(room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
         const double area = geometry::sin_k(room.space, r) * reach * 2 * kPi / kCount;
         for (const double up : {1.0, -1.0}) {
@@ -140,7 +140,7 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const bool mirrors : {false, true}) {
       const Lit l = lit(notation, 0.5, mirrors);
-      const Space space = l.room.room.space;
+      const Space space = l.room.polygon.space;
       surface::Random random(8);
       const auto in_floor_patch = [&](const geometry::Point& p) { return geometry::distance(space, p, {}) < 0.3; };
       const auto in_ceiling_patch = [&](const geometry::Point& p) { return p.x / p.w > 0.05; };
@@ -148,7 +148,7 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
       constexpr int kCount = 120000;
       for (const bool from_floor : {true, false}) {
         for (int i = 0; i < kCount; ++i) {
-          const double phi = 2 * kPi * random.next(), reach = place::reach(l.room.room, phi), r = reach * random.next();
+          const double phi = 2 * kPi * random.next(), reach = place::distance_to_boundary(l.room.polygon, phi), r = reach * random.next();
           const geometry::Point at = geometry::point_along(space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
           if (!(from_floor ? in_floor_patch(at) : in_ceiling_patch(at))) continue;
           const double area = geometry::sin_k(space, r) * reach * 2 * kPi / kCount, up = from_floor ? 1 : -1;
@@ -159,10 +159,10 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
           trace::FollowOptions follow;
           follow.max_bounces = 40;
           const trace::Path path = trace::follow(l.lighting.scene, light::spawn_ray(l.lighting, point, chosen.direction), follow);
-          if (path.hit.target != (from_floor ? trace::Target::ceiling : trace::Target::floor)) continue;
-          const geometry::Point end = trace::position_at(space, path.last, path.hit.t).floor;
+          if (path.hit.kind != (from_floor ? trace::HitKind::ceiling : trace::HitKind::floor)) continue;
+          const geometry::Point end = trace::position_at(space, path.last_ray, path.hit.t).floor;
           if (!(from_floor ? in_ceiling_patch(end) : in_floor_patch(end))) continue;
-          const double share = area * chosen.weight * path.weight.r;
+          const double share = area * chosen.weight * path.throughput.r;
           (from_floor ? there : back) += share;
           squares += share * share;
         }

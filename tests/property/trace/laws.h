@@ -32,11 +32,11 @@ inline place::PlacedMesh ball(Space space, const Point& centre, double radius, d
       mesh.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i + 1, j)});
     }
   }
-  mesh.look.assign(mesh.triangles.size(), 0);
+  mesh.style.assign(mesh.triangles.size(), 0);
   return mesh;
 }
 
-inline place::PlacedRoom room_of(Space space) {
+inline place::Interior room_of(Space space) {
   return furnished(space == Space::hyperbolic  ? regular_room(space, 5, 2)
                    : space == Space::euclidean ? regular_room(space, 4, 2)
                                                : regular_room(space, 3, 2));
@@ -50,7 +50,7 @@ inline int leaks(Space space, int rays, std::uint64_t seed) {
     auto placed = room_of(space);
     const Point centre = at_polar(space, 0.1, 0.7);
     placed.parts.push_back(ball(space, centre, 0.3, 0.5, rings, around, random));
-    placed.looks.resize(1);
+    placed.styles.resize(1);
     const TraceScene scene = prepare(placed);
     const auto& mesh = placed.parts[0];
     const auto move = geometry::translation_to(space, centre);
@@ -64,7 +64,7 @@ inline int leaks(Space space, int rays, std::uint64_t seed) {
       const geometry::Position to{geometry::normalised_point(space, sum), (1 - u) * mesh.z[a] + u * mesh.z[b]};
       const Segment segment = segment_between(space, from, to);
       const Hit hit = closest(scene, segment.ray);
-      if (hit.target != Target::triangle || hit.t > segment.length + 1e-9) ++out;
+      if (hit.kind != HitKind::triangle || hit.t > segment.length + 1e-9) ++out;
     }
   }
   return out;
@@ -76,7 +76,7 @@ inline int wrong_departures(Space space, int rays, std::uint64_t seed) {
   auto placed = room_of(space);
   placed.parts.push_back(ball(space, at_polar(space, 0.1, 0.7), 0.3, 0.5, 12, 16, random));
   placed.parts.push_back(soup_of(placed, 30, 0.3, random));
-  placed.looks.resize(1);
+  placed.styles.resize(1);
   const TraceScene scene = prepare(placed);
   int wrong = 0;
   for (int i = 0; i < rays; ++i) {
@@ -86,22 +86,22 @@ inline int wrong_departures(Space space, int rays, std::uint64_t seed) {
     Direction d = random_direction(space, point.at.floor, random);
     if (inner(space, d, point.normal) < 0) d = -d;
     if (std::fabs(inner(space, d, point.normal)) < 1e-3) continue;
-    const Ray next = leave(scene, point, d);
-    const double end = space == Space::spherical && next.c > 0 ? kPi / next.c : kEndless;
+    const Ray next = spawn_ray(scene, point, d);
+    const double end = space == Space::spherical && next.c > 0 ? kPi / next.c : kInfinity;
     const Hit fast = closest_triangle(scene, next);
-    const BvhHit slow = try_all(space, scene.objects->soup(), next, end);
-    const bool met = fast.target == Target::triangle;
-    if (met != (slow.triangle != kNone) || (met && std::fabs(fast.t - slow.t) > 1e-12)) ++wrong;
-    if (met && hit.target == Target::triangle && fast.part == hit.part && fast.triangle == hit.triangle && fast.t < 1e-6) ++wrong;
+    const BvhHit slow = try_all(space, scene.objects->triangles(), next, end);
+    const bool met = fast.kind == HitKind::triangle;
+    if (met != (slow.triangle != kNoTriangle) || (met && std::fabs(fast.t - slow.t) > 1e-12)) ++wrong;
+    if (met && hit.kind == HitKind::triangle && fast.part == hit.part && fast.triangle == hit.triangle && fast.t < 1e-6) ++wrong;
   }
   return wrong;
 }
 
 /// A path by numerical integration in the disk chart, mirrors and all, in long double: z″ = 2κ·z̄·z′²/(1 + κ|z|²) (conformal metric
 /// 2|dz|/(1 + κ|z|²); E²: z″ = 0), fourth-order Runge–Kutta; walls are circles there, met by halving the step.
-inline geometry::Position integrate(const place::PlacedRoom& placed, const Ray& ray, long double length, long double step) {
+inline geometry::Position integrate(const place::Interior& placed, const Ray& ray, long double length, long double step) {
   using Complex = std::complex<long double>;
-  const Space space = placed.room.space;
+  const Space space = placed.polygon.space;
   const long double k = geometry::curvature(space);
   struct State {
     Complex z, dz;
@@ -128,7 +128,7 @@ inline geometry::Position integrate(const place::PlacedRoom& placed, const Ray& 
     const State next = advance(s, h);
     const room::Wall* met = nullptr;
     long double first = h;
-    for (const auto& wall : placed.room.walls) {
+    for (const auto& wall : placed.polygon.walls) {
       if (value(wall, next.z) >= 0) continue;
       long double lo = 0, hi = h;
       if (value(wall, s.z) <= 1e-17L) lo = std::min(h, 1e-12L);  // just reflected here

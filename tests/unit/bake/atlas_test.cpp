@@ -49,23 +49,23 @@ image::Image noise(int width, int height, unsigned seed) {
   return image;
 }
 
-place::PlacedRoom furnished(scene::Scene scene) {
+place::Interior furnished(scene::Scene scene) {
   scene.allow_non_orbifold = true;
-  return place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
+  return place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().interior;
 }
 
 // One triangle of texture 0 over the whole picture.
-place::PlacedRoom textured(place::PartKind kind, const image::Image& image, const scene::Color& tint) {
-  place::PlacedRoom room;
+place::Interior textured(place::PartKind kind, const image::Image& image, const scene::Color& tint) {
+  place::Interior room;
   room.textures = {image};
-  room.looks.push_back({tint, 0, {}});
+  room.styles.push_back({tint, 0, {}});
   place::PlacedMesh part;
   part.kind = kind;
   part.floor = {{1, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}};
   part.z = {0, 0, 0, 0};
   part.uv = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
   part.triangles = {{0, 1, 2}, {2, 1, 3}};
-  part.look = {0, 0};
+  part.style = {0, 0};
   room.parts = {part};
   return room;
 }
@@ -80,7 +80,7 @@ TEST_CASE("every triangle of a plain room reads its own colour, however a render
   ball.material->pattern = scene::Pattern::checker;
   ball.material->cell = 0.05;
   scene.objects = {ball};
-  const place::PlacedRoom room = furnished(scene);
+  const place::Interior room = furnished(scene);
   const Atlas atlas = make_atlas(room).value();
   REQUIRE(atlas.room.parts.size() == room.parts.size());
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
@@ -88,7 +88,7 @@ TEST_CASE("every triangle of a plain room reads its own colour, however a render
     REQUIRE(after.triangles.size() == before.triangles.size());
     REQUIRE(atlas.uv[p].size() == after.floor.size());
     for (std::size_t t = 0; t < before.triangles.size(); ++t) {
-      const scene::Color& color = room.looks[before.look[t]].color;
+      const scene::Color& color = room.styles[before.style[t]].color;
       const Texel wanted{encoded(color.r), encoded(color.g), encoded(color.b), 255};
       for (int i = 0; i < 3; ++i) {
         const std::uint32_t a = before.triangles[t][i], b = after.triangles[t][i];
@@ -106,14 +106,14 @@ TEST_CASE("every triangle of a plain room reads its own colour, however a render
 }
 
 TEST_CASE("equal colours share a block, and vertices are doubled only between colours", "[bake]") {
-  const place::PlacedRoom room = furnished(scene::default_scene(notation::parse("*2222").value()));
+  const place::Interior room = furnished(scene::default_scene(notation::parse("*2222").value()));
   const Atlas atlas = make_atlas(room).value();
   std::size_t ceiling = 1;
   CHECK(atlas.room.parts[ceiling].floor.size() == room.parts[ceiling].floor.size());
   CHECK(atlas.room.parts[0].floor.size() > room.parts[0].floor.size());
   CHECK(atlas.room.parts[0].floor.size() <= 2 * room.parts[0].floor.size());
-  place::PlacedRoom same = room;
-  for (place::Look& look : same.looks) look.color = {0.5, 0.5, 0.5};
+  place::Interior same = room;
+  for (place::SurfaceStyle& look : same.styles) look.color = {0.5, 0.5, 0.5};
   const Atlas one = make_atlas(same).value();
   CHECK(one.image.width == 16);
   CHECK(one.image.height == 4);
@@ -160,13 +160,13 @@ TEST_CASE("pictures that fit nowhere are refused", "[bake]") {
 }
 
 TEST_CASE("many pictures are packed without overlap, the same way each time", "[bake]") {
-  place::PlacedRoom room = textured(place::PartKind::object, noise(30, 10, 0), {1, 1, 1});
+  place::Interior room = textured(place::PartKind::object, noise(30, 10, 0), {1, 1, 1});
   for (unsigned i = 1; i < 40; ++i) {
     room.textures.push_back(noise(5 + static_cast<int>(i * 7 % 50), 3 + static_cast<int>(i * 11 % 40), i));
-    room.looks.push_back({{1, 1, 1}, static_cast<int>(i), {}});
-    room.looks.push_back({{0.01 * i, 0.2, 0.3}, -1, {}});
+    room.styles.push_back({{1, 1, 1}, static_cast<int>(i), {}});
+    room.styles.push_back({{0.01 * i, 0.2, 0.3}, -1, {}});
     place::PlacedMesh part = room.parts[0];
-    part.look = {static_cast<std::uint16_t>(2 * i - 1), static_cast<std::uint16_t>(2 * i)};
+    part.style = {static_cast<std::uint16_t>(2 * i - 1), static_cast<std::uint16_t>(2 * i)};
     room.parts.push_back(part);
   }
   const Atlas atlas = make_atlas(room).value(), again = make_atlas(room).value();
@@ -185,11 +185,11 @@ TEST_CASE("many pictures are packed without overlap, the same way each time", "[
 }
 
 TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight", "[bake]") {
-  place::PlacedRoom room = textured(place::PartKind::object, noise(16, 16, 7), {0.61, 0.37, 0.083});
+  place::Interior room = textured(place::PartKind::object, noise(16, 16, 7), {0.61, 0.37, 0.083});
   for (int i = 0; i < 64; ++i) {
-    room.looks.push_back({{0.0002 * i * i, 0.01 + 0.003 * i, 0.9 / (i + 1)}, -1, {}});
+    room.styles.push_back({{0.0002 * i * i, 0.01 + 0.003 * i, 0.9 / (i + 1)}, -1, {}});
     place::PlacedMesh part = room.parts[0];
-    part.look = {static_cast<std::uint16_t>(i + 1), static_cast<std::uint16_t>(i + 1)};
+    part.style = {static_cast<std::uint16_t>(i + 1), static_cast<std::uint16_t>(i + 1)};
     room.parts.push_back(part);
   }
   bake::AtlasOptions options;
@@ -207,14 +207,14 @@ TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight"
       worst_16 = std::max(worst_16, std::fabs(image::decode_srgb(atlas.image16.rgb[3 * at + c] / 65535.0) - own[c]));
     }
   };
-  for (std::size_t p = 1; p < room.parts.size(); ++p) judge(atlas.uv[p][0][0], atlas.uv[p][0][1], room.looks[p].color);
+  for (std::size_t p = 1; p < room.parts.size(); ++p) judge(atlas.uv[p][0][0], atlas.uv[p][0][1], room.styles[p].color);
   const auto& uv = atlas.uv[0];
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) {
       const Texel own = texel(room.textures[0], x, y);
       const double s = (x + 0.5) / 16, t = (y + 0.5) / 16;
       judge((1 - s) * uv[0][0] + s * uv[1][0], (1 - t) * uv[0][1] + t * uv[2][1],
-            room.looks[0].color *
+            room.styles[0].color *
                 scene::Color{image::decode_srgb(own[0] / 255.0), image::decode_srgb(own[1] / 255.0), image::decode_srgb(own[2] / 255.0)});
     }
   CHECK(worst_8 > 1e-3);
@@ -224,9 +224,9 @@ TEST_CASE("sixteen bits hold colours and tinted pictures more finely than eight"
 TEST_CASE("holes of a picture are transparent in the atlas, and only there is anything so", "[bake]") {
   image::Image image = noise(20, 12, 3);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = static_cast<std::uint8_t>(i * 37 % 256);
-  place::PlacedRoom room = textured(place::PartKind::object, image, {1, 1, 1});
+  place::Interior room = textured(place::PartKind::object, image, {1, 1, 1});
   for (const double cutoff : {-1.0, 0.25, 0.5}) {
-    room.looks[0].cutoff = cutoff;
+    room.styles[0].alpha_cutoff = cutoff;
     const Atlas atlas = make_atlas(room).value();
     const auto& uv = atlas.uv[0];
     for (int y = 0; y < image.height; ++y)

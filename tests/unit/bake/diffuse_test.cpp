@@ -16,9 +16,9 @@ using test::lit_scene;
 TEST_CASE("patterns need a bake even without lamps, plain colours need none", "[bake]") {
   scene::Scene scene = scene::default_scene(notation::parse("*222").value());
   const room::Room room = room::realise(scene.orbifold, scene.room.shape).value();
-  CHECK_FALSE(bake::needs_bake(scene, place::furnish(scene, room, mesh_io::assets_from_files()).value().room));
+  CHECK_FALSE(bake::needs_bake(scene, place::furnish(scene, room, mesh_io::assets_from_files()).value().interior));
   scene.room.floor.material.pattern = scene::Pattern::marble;
-  CHECK(bake::needs_bake(scene, place::furnish(scene, room, mesh_io::assets_from_files()).value().room));
+  CHECK(bake::needs_bake(scene, place::furnish(scene, room, mesh_io::assets_from_files()).value().interior));
 }
 
 TEST_CASE("the bake holds the light of every point, and the same bytes for any executor", "[bake]") {
@@ -56,7 +56,7 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
     for (std::size_t t = 0; t < part.triangles.size(); t += 7) {
       const std::array<double, 3> b{0.3, 0.5, 0.2};
       const scene::Color e = light::irradiance(l.lighting, surface::shading_point(l.room, part, l.lighting.normals[p], t, b));
-      const place::Look& look = l.room.looks[part.look[t]];
+      const place::SurfaceStyle& look = l.room.styles[part.style[t]];
       const double expected = 255 * image::encode_srgb(light::outgoing_radiance(l.lighting, look.material, look.color, e).g);
       double u = 0, v = 0;
       for (int k = 0; k < 3; ++k) {

@@ -18,7 +18,7 @@ namespace {
 
 struct LitStandIn {
   scene::Scene scene;
-  place::PlacedRoom room;
+  place::Interior room;
   light::LightingContext lighting;
 };
 
@@ -33,7 +33,9 @@ LitStandIn lit(const std::string& orbifold, int passes = 0) {
   lamp.place.z = 0.6;
   scene.lamps = {lamp};
   LitStandIn result{
-      scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room, {}};
+      scene,
+      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().interior,
+      {}};
   light::LightOptions options;
   options.cull_below = 0;
   options.indirect_bounces = passes;
@@ -45,7 +47,7 @@ LitStandIn lit(const std::string& orbifold, int passes = 0) {
 
 TEST_CASE("a point of a coarser level is lit as the surface just there, not as its far side", "[bake]") {
   const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"));
-  const geometry::Space space = l.room.room.space;
+  const geometry::Space space = l.room.polygon.space;
   std::size_t sides = 0;
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
     const place::PlacedMesh& part = l.room.parts[p];
@@ -71,7 +73,7 @@ TEST_CASE("a level that is the part itself has its light", "[bake]") {
     return part.kind == place::PartKind::object && light::lamp_of_part(part) < 0;
   };
   const auto p = static_cast<std::size_t>(std::find_if(l.room.parts.begin(), l.room.parts.end(), is_cylinder) - l.room.parts.begin());
-  place::PlacedRoom both = l.room;
+  place::Interior both = l.room;
   both.parts.push_back(l.room.parts[p]);
   scene::BakeSpec draft;
   draft.quality = scene::BakeQuality::draft;
@@ -99,7 +101,7 @@ TEST_CASE("frames are lit at their mirrors as just before them", "[bake]") {
   for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
     const place::PlacedMesh& part = l.room.parts[p];
     if (part.kind != place::PartKind::frame) continue;
-    const room::Wall& wall = l.room.room.walls[static_cast<std::size_t>(part.wall)];
+    const room::Wall& wall = l.room.polygon.walls[static_cast<std::size_t>(part.wall)];
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         // An edge on the mirror, asked in its middle: its ends lie in the frame's own corners.

@@ -22,7 +22,7 @@ namespace {
 /// A room whose walls are all plain, so that each has triangles.
 struct Plain {
   scene::Scene scene;
-  place::PlacedRoom room;
+  place::Interior room;
   std::vector<surface::PartNormals> normals;
   std::vector<std::vector<bake::TexelPatch>> patches;
 };
@@ -32,7 +32,8 @@ Plain plain(const char* notation) {
   p.scene = scene::default_scene(notation::parse(notation).value());
   for (scene::Wall& wall : p.scene.room.walls) wall.mirrors.clear();
   p.scene.lamps.clear(), p.scene.objects.clear();
-  p.room = place::furnish(p.scene, room::realise(p.scene.orbifold, p.scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
+  p.room =
+      place::furnish(p.scene, room::realise(p.scene.orbifold, p.scene.room.shape).value(), mesh_io::assets_from_files()).value().interior;
   for (std::uint32_t i = 0; i < p.room.parts.size(); ++i) {
     p.normals.push_back(surface::part_normals(p.room, p.room.parts[i]));
     p.patches.push_back(bake::make_patches(p.room, i, p.normals.back()));
@@ -41,18 +42,18 @@ Plain plain(const char* notation) {
 }
 
 /// How far the place that the map found lies from a point: by the patch's own formula.
-double missed(const Plain& p, const bake::PatchLocator& map, const Position& at, trace::Target target, int wall) {
+double missed(const Plain& p, const bake::PatchLocator& map, const Position& at, trace::HitKind target, int wall) {
   trace::SurfacePoint point;
   point.at = at;
   trace::Hit hit;
-  hit.target = target, hit.wall = wall;
+  hit.kind = target, hit.wall = wall;
   const bake::PatchUv found = map.find(point, hit);
   if (found.patch < 0) return 1e9;
   std::size_t i = static_cast<std::size_t>(found.patch), part = 0;
   while (i >= p.patches[part].size()) i -= p.patches[part++].size();
   const bake::BarycentricPoint in = bake::barycentric_point(p.patches[part][i], static_cast<double>(found.u), static_cast<double>(found.v));
   const Position there = surface::shading_point(p.room, p.room.parts[part], p.normals[part], in.triangle, in.b).at;
-  return std::hypot(geometry::distance(p.room.room.space, there.floor, at.floor), there.z - at.z);
+  return std::hypot(geometry::distance(p.room.polygon.space, there.floor, at.floor), there.z - at.z);
 }
 
 }  // namespace
@@ -63,19 +64,19 @@ TEST_CASE("where light ends on floor, ceiling or a wall is found on its triangle
   for (const char* notation : {"*", "*22", "*33", "*77", "*222", "*235", "*333", "*2222", "*22222", "*237"}) {
     const Plain p = plain(notation);
     const bake::PatchLocator map(p.room, p.patches);
-    const room::Room& room = p.room.room;
+    const room::Room& room = p.room.polygon;
     double worst = 0;
     for (int i = 0; i < 3000; ++i) {
-      const double turn = 2 * std::numbers::pi * is_linear(random), reach = place::reach(room, turn);
+      const double turn = 2 * std::numbers::pi * is_linear(random), reach = place::distance_to_boundary(room, turn);
       // To the very rim, where w vanishes on half spheres and in the corners of lunes.
       const double r = i % 10 == 0 ? reach : reach * std::sqrt(is_linear(random));
       const geometry::Point at = geometry::point_along(room.space, {}, geometry::Tangent(0, std::cos(turn), std::sin(turn)), r);
-      worst = std::max(worst, missed(p, map, {at, 0}, trace::Target::floor, -1));
-      worst = std::max(worst, missed(p, map, {at, p.room.height}, trace::Target::ceiling, -1));
+      worst = std::max(worst, missed(p, map, {at, 0}, trace::HitKind::floor, -1));
+      worst = std::max(worst, missed(p, map, {at, p.room.height}, trace::HitKind::ceiling, -1));
       const int w = static_cast<int>(is_linear(random) * static_cast<double>(room.walls.size()));
       const Position on_wall{room::point_on_wall(room, w, room.walls[static_cast<std::size_t>(w)].length * is_linear(random)),
                              p.room.height * is_linear(random)};
-      worst = std::max(worst, missed(p, map, on_wall, trace::Target::wall, w));
+      worst = std::max(worst, missed(p, map, on_wall, trace::HitKind::wall, w));
     }
     INFO(notation);
     CHECK(worst < 1e-5);
@@ -93,8 +94,8 @@ TEST_CASE("light passed on in half spheres and lunes is a number everywhere", "[
     scene.integrator = scene::Integrator::path;
     scene.bake.quality = scene::BakeQuality::draft;
     scene.bake.samples = 16;
-    const place::PlacedRoom room =
-        place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
+    const place::Interior room =
+        place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().interior;
     const light::LightingContext lighting = light::prepare_light(scene, room, bake::bake_light_options(scene)).value();
     const bake::DiffuseBake baked = bake::bake_diffuse(room, lighting, bake::bake_options(scene.bake), serial_executor()).value();
     // Black texels are what no numbers become.

@@ -23,8 +23,8 @@ namespace {
 /// A room with a shiny ball under a lamp, and an eye.
 struct Stage {
   scene::Scene scene;
-  place::PlacedRoom room;
-  place::Eye eye;
+  place::Interior room;
+  place::Camera eye;
   std::vector<cover::Copy> copies;
 };
 
@@ -48,8 +48,9 @@ Stage stage(const std::string& orbifold, int bounces, scene::MaterialKind kind) 
   s.scene.camera.place.z = 0.4;
   s.scene.camera.size = {160, 120};
   s.scene.cover.max_bounces = bounces;
-  s.room = place::furnish(s.scene, room::realise(s.scene.orbifold, s.scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
-  s.eye = place::make_eye(s.scene, s.room).value();
+  s.room =
+      place::furnish(s.scene, room::realise(s.scene.orbifold, s.scene.room.shape).value(), mesh_io::assets_from_files()).value().interior;
+  s.eye = place::make_camera(s.scene, s.room).value();
   s.copies = cover::unfold(s.room, s.eye, s.scene.cover).value();
   return s;
 }
@@ -65,8 +66,8 @@ bake::DiffuseBake baked_of(const Stage& s, const light::LightingContext& lightin
 TEST_CASE("a point of a copy sees the eye where real mirrors bring its light to the eye", "[bake]") {
   const std::string orbifold = GENERATE("*222", "*333", "*22222", "*");
   const Stage s = stage(orbifold, orbifold == "*" ? 5 : 3, scene::MaterialKind::glossy);
-  const geometry::Space space = s.room.room.space;
-  const trace::Prism prism{space, s.room.height, s.room.room.walls};
+  const geometry::Space space = s.room.polygon.space;
+  const trace::Prism prism{space, s.room.height, s.room.polygon.walls};
   const geometry::Position eye{s.eye.room_from_eye * geometry::Point(), s.eye.z};
   const geometry::Position at{geometry::point_along(space, {}, geometry::Tangent(0, 0.6, 0.8), 0.17), 0.55};
   std::size_t seen = 0;
@@ -106,7 +107,7 @@ TEST_CASE("baked highlights are the light that a shiny ball sends to the eye, co
         if (own.uv[v] == view.uv[own.part][v]) continue;
         const surface::ShadingPoint point =
             surface::shading_point(s.room, part, lighting.normals[own.part].vertices[lighting.normals[own.part].corners[t][k]]);
-        const scene::Material& material = s.room.looks[part.look[t]].material;
+        const scene::Material& material = s.room.styles[part.style[t]].material;
         const scene::Color gloss =
             light::highlight(lighting, point, bake::direction_to_eye(s.copies[own.copy], s.eye, point.at), material, material.color);
         const scene::Color all = light::outgoing_radiance(lighting, material, material.color, light::irradiance(lighting, point)) + gloss;

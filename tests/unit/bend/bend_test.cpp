@@ -27,7 +27,7 @@ Executor threads(int count) {
   };
 }
 
-BentCover bent(const PlacedRoom& room, const std::vector<cover::Copy>& copies, const place::Eye& eye, const BendOptions& options = {},
+BentCover bent(const Interior& room, const std::vector<cover::Copy>& copies, const place::Camera& eye, const BendOptions& options = {},
                const Executor& executor = serial_executor()) {
   auto result = bend_whole(room, plain_uv(room), copies, eye, options, executor);
   if (!result) FAIL(to_text(result.error()));
@@ -42,8 +42,8 @@ TEST_CASE("bending gives the same bytes for any number of threads", "[bend]") {
   with.walls = true;
   const auto room = regular_room(GENERATE(3, 4, 5), 2, with);
   auto copies = copies_of(room, 3);
-  if (room.room.space == Space::spherical) copies = with_sheets(copies, 3, 2);
-  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  if (room.polygon.space == Space::spherical) copies = with_sheets(copies, 3, 2);
+  const auto eye = eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1);
   const auto one = bent(room, copies, eye), three = bent(room, copies, eye, {}, threads(3));
   REQUIRE(one.positions.size() == three.positions.size());
   CHECK(std::memcmp(one.positions.data(), three.positions.data(), one.positions.size() * sizeof(one.positions[0])) == 0);
@@ -54,7 +54,7 @@ TEST_CASE("bending gives the same bytes for any number of threads", "[bend]") {
 TEST_CASE("every copy owns its range and nothing is left between", "[bend]") {
   const auto room = regular_room(5, 2);
   const auto copies = copies_of(room, 3);
-  const auto cover = bent(room, copies, eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1));
+  const auto cover = bent(room, copies, eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1));
   std::size_t vertex = 0, index = 0;
   REQUIRE(cover.copies.size() == copies.size());
   for (const auto& range : cover.copies) {
@@ -105,8 +105,8 @@ TEST_CASE("a wall is drawn by the nearer of its two copies only", "[bend]") {
 TEST_CASE("triangles keep their outside in mirror images", "[bend]") {
   const auto room = regular_room(GENERATE(3, 4, 5), 2);
   auto copies = copies_of(room, 3);
-  if (room.room.space == Space::spherical) copies = with_sheets(copies, 3, 3);
-  auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  if (room.polygon.space == Space::spherical) copies = with_sheets(copies, 3, 3);
+  auto eye = eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1);
   eye.projection = scene::Projection::panorama;
   BendOptions options;
   options.tolerance_px = 0.02;
@@ -127,7 +127,7 @@ TEST_CASE("triangles keep their outside in mirror images", "[bend]") {
 TEST_CASE("too dense a cover is refused with a tolerance that fits", "[bend]") {
   const auto room = regular_room(5, 2);
   const auto copies = copies_of(room, 2);
-  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  const auto eye = eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1);
   BendOptions options;
   options.tolerance_px = 1e-4;
   options.max_triangles = 20'000;
@@ -148,10 +148,10 @@ TEST_CASE("too dense a cover is refused with a tolerance that fits", "[bend]") {
 TEST_CASE("the disk view is the conformal chart, whatever the eye", "[bend]") {
   const auto room = regular_room(GENERATE(3, 4, 5), 2);
   auto copies = copies_of(room, 3);
-  if (room.room.space == Space::spherical) copies = with_sheets(copies, 3, 1);
+  if (room.polygon.space == Space::spherical) copies = with_sheets(copies, 3, 1);
   BendOptions options;
   options.view = View::disk;
-  const auto cover = bent(room, copies, eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1), options);
+  const auto cover = bent(room, copies, eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1), options);
   for (std::size_t c = 0; c < copies.size(); ++c) {
     if (copies[c].sheet > 0) {
       CHECK(cover.copies[c].index_count == 0);
@@ -160,7 +160,7 @@ TEST_CASE("the disk view is the conformal chart, whatever the eye", "[bend]") {
     for (std::size_t i = 0; i < room.parts[0].floor.size(); ++i) {
       const Point p = copies[c].cover_from_room * room.parts[0].floor[i];
       if (p.w < -0.99) continue;
-      const auto z = geometry::disk_from_point(room.room.space, p);
+      const auto z = geometry::disk_from_point(room.polygon.space, p);
       const auto& got = cover.positions[cover.copies[c].first_vertex + i];
       CHECK(got[0] == Approx(z.real()).margin(1e-6).epsilon(1e-6));
       CHECK(got[1] == Approx(z.imag()).margin(1e-6).epsilon(1e-6));
@@ -176,7 +176,7 @@ TEST_CASE("work stops when the user asks", "[bend]") {
   const auto uv = plain_uv(room);
   const auto copies = copies_of(room, 2);
   const std::array models{whole_model(room, uv)};
-  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  const auto eye = eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1);
   CHECK_THROWS_AS(bend::bend(room, {copies, models, {}}, eye, {}, serial_executor(), progress), Cancelled);
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("each copy is drawn from its own model, and models share what they hav
   const auto room = regular_room(5, 2);
   const auto uv = plain_uv(room);
   const auto copies = copies_of(room, 3);
-  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  const auto eye = eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1);
   const auto plain = bend_whole(room, uv, copies, eye);
   REQUIRE(plain.has_value());
 
@@ -218,7 +218,7 @@ TEST_CASE("a part that must not be split is drawn with its own triangles", "[ben
   const auto room = regular_room(5, 2);
   const auto uv = plain_uv(room);
   const auto copies = copies_of(room, 1);
-  const auto eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  const auto eye = eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1);
   BendOptions fine;
   fine.tolerance_px = 0.01;
   Model model = whole_model(room, uv);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kEyeZ = 1;
 
-place::Eye eye() {
-  place::Eye eye;
+place::Camera eye() {
+  place::Camera eye;
   eye.room_from_eye = geometry::identity(Space::euclidean);
   eye.z = kEyeZ;
   eye.width = 800, eye.height = 600;

@@ -20,7 +20,7 @@ using geometry::Space;
 using geometry::Vector3;
 using place::PartKind;
 using place::PlacedMesh;
-using place::PlacedRoom;
+using place::Interior;
 
 inline Point polar(Space space, double r, double phi) {
   return {geometry::cos_k(space, r), geometry::sin_k(space, r) * std::cos(phi), geometry::sin_k(space, r) * std::sin(phi)};
@@ -63,7 +63,7 @@ inline PlacedMesh level_part(Space space, const std::vector<Point>& corners, dou
       }
     }
   }
-  mesh.look.assign(mesh.triangles.size(), kind == PartKind::floor ? 0 : 1);
+  mesh.style.assign(mesh.triangles.size(), kind == PartKind::floor ? 0 : 1);
   return mesh;
 }
 
@@ -81,7 +81,7 @@ inline PlacedMesh wall_part(Space space, const Point& a, const Point& b, double 
     mesh.triangles.push_back({v, v + 2, v + 3});
     mesh.triangles.push_back({v, v + 3, v + 1});
   }
-  mesh.look.assign(mesh.triangles.size(), look);
+  mesh.style.assign(mesh.triangles.size(), look);
   return mesh;
 }
 
@@ -111,7 +111,7 @@ inline PlacedMesh knot_part(Space space, const Point& at, double size, double z,
       mesh.triangles.push_back({at_grid(i, j), at_grid(i + 1, j + 1), at_grid(i + 1, j)});
     }
   }
-  mesh.look.assign(mesh.triangles.size(), 2);
+  mesh.style.assign(mesh.triangles.size(), 2);
   return mesh;
 }
 
@@ -124,10 +124,10 @@ struct Furnishing {
 };
 
 /// The regular room with `n` corners of angle π/k (E²: of inradius 0.6).
-inline PlacedRoom regular_room(int n, int k, const Furnishing& with = {}) {
+inline Interior regular_room(int n, int k, const Furnishing& with = {}) {
   const double alpha = std::numbers::pi / (2 * k), beta = std::numbers::pi / n, excess = alpha + beta - std::numbers::pi / 2;
-  PlacedRoom placed;
-  auto& room = placed.room;
+  Interior placed;
+  auto& room = placed.polygon;
   room.space = std::fabs(excess) < 1e-9 ? Space::euclidean : excess > 0 ? Space::spherical : Space::hyperbolic;
   const double c = std::cos(alpha) / std::sin(beta), d = 1 / (std::tan(alpha) * std::tan(beta));
   room.inradius = room.space == Space::euclidean ? 0.6 : room.space == Space::spherical ? std::acos(c) : std::acosh(c);
@@ -157,15 +157,15 @@ inline PlacedRoom regular_room(int n, int k, const Furnishing& with = {}) {
   }
   if (with.knot_along > 0)
     placed.parts.push_back(knot_part(room.space, polar(room.space, 0.2, 0.4), 0.25, 0.5, with.knot_along, with.knot_around));
-  placed.looks.resize(4);
+  placed.styles.resize(4);
   return placed;
 }
 
 /// All copies up to a word length, by breadth first and rounded matrices: slow and simple, what the real enumeration is not.
-inline std::vector<cover::Copy> copies_of(const PlacedRoom& placed, int length) {
-  const Space space = placed.room.space;
+inline std::vector<cover::Copy> copies_of(const Interior& placed, int length) {
+  const Space space = placed.polygon.space;
   std::vector<Isometry> mirrors;
-  for (const auto& wall : placed.room.walls) mirrors.push_back(geometry::reflection(space, wall.line));
+  for (const auto& wall : placed.polygon.walls) mirrors.push_back(geometry::reflection(space, wall.line));
   const auto key = [](const Isometry& m) {
     const auto matrix = geometry::matrix(m);
     std::array<long long, 9> rounded{};
@@ -212,8 +212,8 @@ inline std::vector<cover::Copy> with_sheets(const std::vector<cover::Copy>& copi
   return all;
 }
 
-inline place::Eye eye_at(Space space, double r, double phi, double z, double azimuth, double elevation) {
-  place::Eye eye;
+inline place::Camera eye_at(Space space, double r, double phi, double z, double azimuth, double elevation) {
+  place::Camera eye;
   eye.room_from_eye = geometry::translation_to(space, polar(space, r, phi));
   eye.z = z;
   eye.forward = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
@@ -222,7 +222,7 @@ inline place::Eye eye_at(Space space, double r, double phi, double z, double azi
   return eye;
 }
 
-inline std::vector<std::vector<std::array<float, 2>>> plain_uv(const PlacedRoom& room) {
+inline std::vector<std::vector<std::array<float, 2>>> plain_uv(const Interior& room) {
   std::vector<std::vector<std::array<float, 2>>> uv;
   for (const auto& part : room.parts) {
     uv.emplace_back();
@@ -233,8 +233,9 @@ inline std::vector<std::vector<std::array<float, 2>>> plain_uv(const PlacedRoom&
 }
 
 /// Bends copies that are all drawn from the room itself.
-inline Result<BentCover> bend_whole(const PlacedRoom& room, const std::vector<Uv>& uv, const std::vector<cover::Copy>& copies,
-                                    const place::Eye& eye, const BendOptions& options = {}, const Executor& executor = serial_executor()) {
+inline Result<BentCover> bend_whole(const Interior& room, const std::vector<Uv>& uv, const std::vector<cover::Copy>& copies,
+                                    const place::Camera& eye, const BendOptions& options = {},
+                                    const Executor& executor = serial_executor()) {
   const std::array models{whole_model(room, uv)};
   return bend::bend(room, {copies, models, {}}, eye, options, executor);
 }

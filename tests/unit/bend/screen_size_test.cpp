@@ -9,7 +9,7 @@
 using namespace orbc;
 
 TEST_CASE("beyond the antipode a thing is seen as large as its nearest point on that way allows", "[bend]") {
-  place::Eye eye;
+  place::Camera eye;
   eye.room_from_eye = geometry::identity(geometry::Space::spherical);
   eye.z = 0.4;
   const bend::ScreenSize detail(eye, {});

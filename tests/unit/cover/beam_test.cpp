@@ -16,14 +16,14 @@ namespace {
 
 using test::mirror_room;
 
-place::Eye eye_in(const place::PlacedRoom& room) {
-  place::Eye eye;
-  eye.room_from_eye = geometry::translation_by(room.room.space, 0.05, 0.03);
+place::Camera eye_in(const place::Interior& room) {
+  place::Camera eye;
+  eye.room_from_eye = geometry::translation_by(room.polygon.space, 0.05, 0.03);
   eye.z = 0.5;
   return eye;
 }
 
-std::vector<cover::Copy> beams_of(const place::PlacedRoom& room, const scene::CoverSpec& spec) {
+std::vector<cover::Copy> beams_of(const place::Interior& room, const scene::CoverSpec& spec) {
   const auto copies = cover::unfold_by_beams(room, eye_in(room), spec);
   if (!copies) FAIL(to_text(copies.error()));
   return *copies;
@@ -91,7 +91,7 @@ TEST_CASE("after each number of bounces the wedges fill the whole round", "[cove
   // On S² a copy in which all rays meet again counts on two sheets.
   for (const auto& [key, sum] : round) of_bounces[key.first] += sum;
   for (const auto& [bounces, sum] : of_bounces) {
-    if (room.room.space != Space::spherical) CHECK(sum == Approx(2 * M_PI).epsilon(1e-9));
+    if (room.polygon.space != Space::spherical) CHECK(sum == Approx(2 * M_PI).epsilon(1e-9));
     CHECK(sum >= 2 * M_PI * (1 - 1e-9));
   }
   CHECK(of_bounces.size() == 9);
@@ -111,7 +111,7 @@ TEST_CASE("mirrors above each other that differ divide what is seen by height bo
   auto room = mirror_room("*2222");
   room.mirrors.resize(1);
   room.mirrors[0].height[1] = 0.4;
-  room.mirrors.push_back({0, {0, room.room.walls[0].length}, {0.5, 1}, {0.5, 0.5, 0.5}});
+  room.mirrors.push_back({0, {0, room.polygon.walls[0].length}, {0.5, 1}, {0.5, 0.5, 0.5}});
   const auto copies = beams_of(room, {6, 0, 0, {}});
   REQUIRE(copies.size() == 3);
   for (std::size_t i = 1; i < 3; ++i) {

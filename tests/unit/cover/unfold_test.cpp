@@ -16,16 +16,16 @@ using geometry::Space;
 
 namespace {
 
-place::PlacedRoom room_of_mirrors(const std::string& notation, double reflectance = 0.9) {
+place::Interior room_of_mirrors(const std::string& notation, double reflectance = 0.9) {
   const auto orbifold = notation::parse(notation);
   REQUIRE(orbifold);
   auto room = room::realise(*orbifold);
   REQUIRE(room);
-  place::PlacedRoom placed;
-  placed.room = std::move(room).value();
-  for (std::size_t i = 0; i < placed.room.walls.size(); ++i) {
-    if (placed.room.walls[i].reflects)
-      placed.mirrors.push_back({static_cast<int>(i), {0, placed.room.walls[i].length}, {0, 1}, {reflectance, reflectance, reflectance}});
+  place::Interior placed;
+  placed.polygon = std::move(room).value();
+  for (std::size_t i = 0; i < placed.polygon.walls.size(); ++i) {
+    if (placed.polygon.walls[i].reflects)
+      placed.mirrors.push_back({static_cast<int>(i), {0, placed.polygon.walls[i].length}, {0, 1}, {reflectance, reflectance, reflectance}});
   }
   placed.parts.emplace_back();
   placed.parts[0].floor.resize(100);
@@ -33,20 +33,20 @@ place::PlacedRoom room_of_mirrors(const std::string& notation, double reflectanc
   return placed;
 }
 
-place::Eye eye_of(const place::PlacedRoom& room) {
-  place::Eye eye;
-  eye.room_from_eye = geometry::translation_by(room.room.space, 0.05, 0.03);
+place::Camera eye_of(const place::Interior& room) {
+  place::Camera eye;
+  eye.room_from_eye = geometry::translation_by(room.polygon.space, 0.05, 0.03);
   eye.z = 0.5;
   return eye;
 }
 
-std::vector<cover::Copy> copies_of(const place::PlacedRoom& room, const scene::CoverSpec& spec) {
+std::vector<cover::Copy> copies_of(const place::Interior& room, const scene::CoverSpec& spec) {
   const auto copies = cover::unfold(room, eye_of(room), spec);
   if (!copies) FAIL(to_text(copies.error()));
   return *copies;
 }
 
-std::string code_of(const place::PlacedRoom& room, const scene::CoverSpec& spec, const cover::UnfoldOptions& options = {}) {
+std::string code_of(const place::Interior& room, const scene::CoverSpec& spec, const cover::UnfoldOptions& options = {}) {
   const auto copies = cover::unfold(room, eye_of(room), spec, options);
   REQUIRE(!copies);
   return copies.error().front().code;
@@ -85,9 +85,9 @@ TEST_CASE("a wall belongs to the nearer copy exactly when it separates its copy 
   for (const auto& copy : copies_of(room, {8, 0, 0, {}})) {
     if (copy.sheet > 0) continue;
     const Point here = inverse(copy.cover_from_room) * (eye.room_from_eye * Point());
-    for (std::size_t i = 0; i < room.room.walls.size(); ++i) {
-      if (!room.room.walls[i].reflects) continue;
-      CHECK(((copy.eye_facing_walls >> i) & 1) == (geometry::value_at(room.room.walls[i].line, here) < 0));
+    for (std::size_t i = 0; i < room.polygon.walls.size(); ++i) {
+      if (!room.polygon.walls[i].reflects) continue;
+      CHECK(((copy.eye_facing_walls >> i) & 1) == (geometry::value_at(room.polygon.walls[i].line, here) < 0));
     }
   }
 }
@@ -111,7 +111,7 @@ TEST_CASE("on the sphere the whole group comes back sheet after sheet", "[cover]
     // On sheet 1 the eye comes from the other side.
     for (const auto& copy : copies) {
       if (copy.sheet != 1 || !copy.word.empty()) continue;
-      CHECK(copy.eye_facing_walls == (std::uint64_t{1} << room.room.walls.size()) - 1);
+      CHECK(copy.eye_facing_walls == (std::uint64_t{1} << room.polygon.walls.size()) - 1);
     }
     const auto planned = cover::plan(room, eye_of(room), {2 * group.half_turn, 0, 0, {}});
     REQUIRE(planned);
@@ -169,7 +169,7 @@ TEST_CASE("the half strip unfolds through its three mirrors only", "[cover]") {
 
 TEST_CASE("leaving out small copies loses no large one", "[cover]") {
   const auto room = room_of_mirrors(GENERATE("*22222", "*237", "*2323", "*333"));
-  const int bounces = room.room.space == Space::euclidean ? 60 : room.room.walls.size() == 3 ? 36 : 14;
+  const int bounces = room.polygon.space == Space::euclidean ? 60 : room.polygon.walls.size() == 3 ? 36 : 14;
   const auto all = copies_of(room, {bounces, 0, 0, {}}), some = copies_of(room, {bounces, 0, 20, {}});
   std::set<std::string> kept;
   for (const auto& copy : some) kept.insert(cover::to_string(copy.word));
@@ -177,9 +177,9 @@ TEST_CASE("leaving out small copies loses no large one", "[cover]") {
   std::size_t large = 0;
   for (const auto& copy : all) {
     const Point centre = inverse(eye.room_from_eye) * (copy.cover_from_room * Point());
-    const double d = geometry::arc_k(room.room.space, centre.w, std::hypot(centre.x, centre.y)), radius = room.room.circumradius;
+    const double d = geometry::arc_k(room.polygon.space, centre.w, std::hypot(centre.x, centre.y)), radius = room.polygon.circumradius;
     if (d > radius) {
-      const double width = 2 * std::asin(geometry::sin_k(room.room.space, radius) / geometry::sin_k(room.room.space, d));
+      const double width = 2 * std::asin(geometry::sin_k(room.polygon.space, radius) / geometry::sin_k(room.polygon.space, d));
       const double height = std::atan(0.5 / (d - radius)) * 2;
       if (std::min(width, height) * place::pixels_per_radian(eye) < 20) continue;
     }
@@ -240,6 +240,6 @@ TEST_CASE("the group enumerates copies of mirrors that are alike and of integer 
   room.mirrors[1].throughput = {0.5, 0.5, 0.5};
   CHECK(cover::needs_beams(room));
   auto real = room_of_mirrors("*22222");
-  real.room.orbifold.corners[0] = Rational(5, 2);
+  real.polygon.orbifold.corners[0] = Rational(5, 2);
   CHECK(cover::needs_beams(real));
 }

@@ -13,12 +13,12 @@ using namespace orbc::bend::test;
 
 namespace {
 
-place::PlacedRoom room_with_knot(int corners) {
+place::Interior room_with_knot(int corners) {
   Furnishing with;
   with.knot_along = 200;
   with.knot_around = 16;
   auto room = regular_room(corners, 2, with);
-  for (auto& part : room.parts) part.look.assign(part.triangles.size(), 2);
+  for (auto& part : room.parts) part.style.assign(part.triangles.size(), 2);
   return room;
 }
 
@@ -47,8 +47,8 @@ TEST_CASE("levels are made of the heavy part alone, ever coarser, closed as it i
   for (const auto& level : levels.back()) {
     CHECK(level.mesh.triangles.size() < triangles);
     CHECK(level.error >= error);
-    CHECK(mesh::analyse(in_disk(room.room.space, level.mesh)).closed);
-    CHECK(level.mesh.look.size() == level.mesh.triangles.size());
+    CHECK(mesh::analyse(in_disk(room.polygon.space, level.mesh)).closed);
+    CHECK(level.mesh.style.size() == level.mesh.triangles.size());
     for (std::size_t i = 0; i < level.mesh.floor.size(); i += 7)
       CHECK(std::any_of(part.floor.begin(), part.floor.end(), [&](const auto& p) {
         return p.w == level.mesh.floor[i].w && p.x == level.mesh.floor[i].x && p.y == level.mesh.floor[i].y;
@@ -61,7 +61,7 @@ TEST_CASE("levels are made of the heavy part alone, ever coarser, closed as it i
 
 TEST_CASE("no point of the picture is displaced by more than the levels' bound", "[driver]") {
   const auto room = room_with_knot(GENERATE(3, 4, 5));
-  const auto space = room.room.space;
+  const auto space = room.polygon.space;
   const auto levels = driver::make_levels(room, serial_executor());
   auto copies = copies_of(room, 4);
   if (space == geometry::Space::spherical) copies = with_sheets(copies, 3, 2);
@@ -105,7 +105,7 @@ TEST_CASE("the stock holds the levels in use, and each once", "[driver]") {
   const auto room = room_with_knot(5);
   const auto levels = driver::make_levels(room, serial_executor());
   const auto copies = copies_of(room, 4);
-  const auto choice = driver::choose_levels(room, levels, copies, eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1), {});
+  const auto choice = driver::choose_levels(room, levels, copies, eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1), {});
   const auto stock = driver::stock_of(room, levels, choice);
   CHECK(stock.room.parts.size() > room.parts.size());
   CHECK(stock.room.parts.size() <= room.parts.size() + levels.back().size());
@@ -118,11 +118,11 @@ TEST_CASE("the stock holds the levels in use, and each once", "[driver]") {
 
 TEST_CASE("a budget of triangles is met, with less error the more there may be", "[driver]") {
   driver::Opened opened;
-  opened.room = std::make_unique<place::PlacedRoom>(room_with_knot(GENERATE(4, 5)));
+  opened.room = std::make_unique<place::Interior>(room_with_knot(GENERATE(4, 5)));
   const auto& room = *opened.room;
   const auto levels = driver::make_levels(room, serial_executor());
   const auto copies = copies_of(room, 4);
-  opened.eye = eye_at(room.room.space, 0.2, 1.0, 0.4, 0.3, 0.1);
+  opened.eye = eye_at(room.polygon.space, 0.2, 1.0, 0.4, 0.3, 0.1);
   const bool expected = GENERATE(false, true);
   if (expected) opened.scene.cover.max_bounces = 4;   // panels all round
   const bend::BendOptions options;

@@ -26,15 +26,15 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
   lamp.place.z = 0.95 * scene.room.height;
   lamp.power = 3;
   scene.lamps = {lamp};
-  const place::PlacedRoom room =
-      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
-  const geometry::Space space = room.room.space;
+  const place::Interior room =
+      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().interior;
+  const geometry::Space space = room.polygon.space;
   light::LightOptions lit;
   lit.indirect_bounces = 8, lit.bounces = 2;
   const light::LightingContext lighting = light::prepare_light(scene, room, lit).value();
 
   const driver::Levels levels = driver::make_levels(room, serial_executor());
-  place::PlacedRoom both = room;
+  place::Interior both = room;
   for (std::size_t p = 0; p < room.parts.size(); ++p)
     if (!levels[p].empty()) both.parts.push_back(levels[p].back().mesh);
   REQUIRE(both.parts.size() == room.parts.size() + 1);
@@ -63,7 +63,7 @@ TEST_CASE("light that surfaces pass on is on a box's coarsest level what it is o
         const surface::TangentFrame there = surface::tangent_frame(space, before.floor);
         const trace::Ray ray = trace::ray_from(space, before, surface::to_ambient(there, -1.0 * out));
         const trace::Hit hit = trace::closest_triangle(lighting.scene, ray, 0.05);
-        if (hit.target != trace::Target::triangle) continue;
+        if (hit.kind != trace::HitKind::triangle) continue;
         const trace::SurfacePoint seen = trace::surface_at(lighting.scene, ray, hit);
         const auto shown = known.at(seen, hit);
         if (!shown || trace::inner(space, light::shading_point(lighting, room, seen, hit).normal, at.normal) < 0.7) continue;

@@ -59,8 +59,8 @@ TEST_CASE("what is seen in mirrors, metals and glass of any copy is what the eye
           for (const cover::Copy& copy : copies) {
             if (copy.bounces != seen.path.bounces || copy.sheet != 0) continue;
             const trace::Direction to_eye = bake::direction_to_eye(copy, scene.eye, seen.surface.at);
-            const trace::Direction off = to_eye + seen.surface.arriving;
-            if (trace::inner(scene.room->room.space, off, off) > 1e-12) continue;
+            const trace::Direction off = to_eye + seen.surface.incoming;
+            if (trace::inner(scene.room->polygon.space, off, off) > 1e-12) continue;
             const scene::Color c = copy.weight * see(seen.surface.at, to_eye, copy, 0, {});
             scene::Color in_turns;  // as the points that are one texel share its ways out
             for (int k = 0; k < 4; ++k) in_turns = in_turns + 0.25 * (copy.weight * see(seen.surface.at, to_eye, copy, 0, {k, 4}));

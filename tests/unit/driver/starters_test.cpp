@@ -65,7 +65,7 @@ void draw_starter(const notation::Orbifold& orbifold, const StarterFile& file, c
   CHECK(compiled->report.copies <= 3000);
   const render::Film film = driver::trace(*opened, {}, executor);
   double brightest = 0;
-  for (const scene::Color& color : film.color) brightest = std::max(brightest, scene::largest(color));
+  for (const scene::Color& color : film.color) brightest = std::max(brightest, scene::max_channel(color));
   CHECK(brightest > 0.1);
 }
 

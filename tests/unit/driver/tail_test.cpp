@@ -49,10 +49,10 @@ TEST_CASE("a mirror ends where the copy behind it is left out, and only there", 
   const auto room = regular_room(5, 2);
   scene::CoverSpec spec;
   spec.max_bounces = 5;
-  const geometry::Isometry behind_2 = room::reflection_in_wall(room.room, 2);
+  const geometry::Isometry behind_2 = room::reflection_in_wall(room.polygon, 2);
   const auto left_out = [&](const cover::Copy& copy) {
     CHECK(copy.bounces == 1);
-    return distance(room.room.space, copy.cover_from_room * geometry::Point(), behind_2 * geometry::Point()) < 1e-9;
+    return distance(room.polygon.space, copy.cover_from_room * geometry::Point(), behind_2 * geometry::Point()) < 1e-9;
   };
   cover::Copy copy;
   CHECK((driver::CutOffs(room, spec, left_out).of(copy) == Ends{CutOff::no, CutOff::no, CutOff::size, CutOff::no, CutOff::no}));
@@ -88,13 +88,13 @@ TEST_CASE("panels have a look for each band of heights, and no vertex within an 
   room.mirrors[1].height[1] = 0.2 * room.height;   // ends in the first
   const std::vector<double> bands{0.25 * room.height, 0.5 * room.height};
   const auto panels = driver::curtains(room, 7, bands);
-  const auto looks = [&](std::size_t i) { return std::set<int>(panels[i].look.begin(), panels[i].look.end()); };
+  const auto looks = [&](std::size_t i) { return std::set<int>(panels[i].style.begin(), panels[i].style.end()); };
   CHECK((looks(0) == std::set<int>{8, 9}));
   CHECK((looks(1) == std::set<int>{7}));
   CHECK((looks(2) == std::set<int>{7, 8, 9}));
   for (std::size_t t = 0; t < panels[2].triangles.size(); ++t)
     for (const std::uint32_t v : panels[2].triangles[t]) {
-      const std::size_t band = panels[2].look[t] - 7U;
+      const std::size_t band = panels[2].style[t] - 7U;
       CHECK(panels[2].z[v] >= (band == 0 ? -0.3 * room.height : bands[band - 1]));
       CHECK(panels[2].z[v] <= (band == 2 ? 1.3 * room.height : bands[band]));
     }
@@ -108,6 +108,6 @@ TEST_CASE("curtains cover their mirrors", "[driver]") {
     CHECK(panels[i].kind == place::PartKind::wall);
     CHECK(panels[i].wall == room.mirrors[i].wall);
     for (const auto& p : panels[i].floor)
-      CHECK(std::fabs(geometry::value_at(room.room.walls[static_cast<std::size_t>(panels[i].wall)].line, p)) < 1e-12);
+      CHECK(std::fabs(geometry::value_at(room.polygon.walls[static_cast<std::size_t>(panels[i].wall)].line, p)) < 1e-12);
   }
 }

@@ -152,7 +152,7 @@ TEST_CASE("an atlas with holes is a mask at one half, and one of sixteen bits is
   const Glb glb = split(gltf::write_gltf(product)[0].bytes);
   CHECK(contains(glb.json, R"("alphaMode":"MASK","alphaCutoff":0.5)"));
   CHECK(image_io::decode_png(glb.bin.substr(248), "PNG").value().rgba[3] == 0);
-  product.depth = scene::AtlasDepth::sixteen;
+  product.depth = scene::AtlasFormat::srgb16;
   product.atlas16 = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
   const std::string png = split(gltf::write_gltf(product)[0].bytes).bin.substr(248);
   CHECK(png[24] == 16);

@@ -16,7 +16,7 @@ namespace {
 
 struct Hung {
   scene::Scene scene;
-  place::PlacedRoom room;
+  place::Interior room;
   std::vector<light::PlacedLamp> lamps;
 };
 
@@ -30,7 +30,7 @@ Hung hung(const char* notation, int lamps) {
   lamp.power = 0.05;
   h.scene.lamps.assign(static_cast<std::size_t>(lamps), lamp);
   const room::Room room = room::realise(h.scene.orbifold, h.scene.room.shape, true).value();
-  h.room = place::furnish(h.scene, room).value().room;
+  h.room = place::furnish(h.scene, room).value().interior;
   h.lamps = light::place_lamps(h.scene, room).value().lamps;
   return h;
 }
@@ -46,10 +46,10 @@ TEST_CASE("images that give too little light are left out, and no point of the r
     light::LightingContext lighting = light::prepare_light(h.scene, h.room, options).value();
     const std::size_t kept = lighting.lamps->images.size();
     const auto irradiance = [&](double r, double z) {
-      const geometry::Point p = geometry::point_along(h.room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), r);
+      const geometry::Point p = geometry::point_along(h.room.polygon.space, {}, geometry::Tangent(0, 0.6, 0.8), r);
       return light::irradiance(lighting, {{p, z}, {{0, 0, 0}, z > 0 ? -1.0 : 1.0}, {p, z}, -1, false}).r;
     };
-    const double reach = 0.9 * h.room.room.inradius;
+    const double reach = 0.9 * h.room.polygon.inradius;
     const double centre = irradiance(0, 0), rim = irradiance(reach, 0), above = irradiance(reach, h.room.height);
     light::LampSet all = *lighting.lamps;
     all.images = light::lamp_images(all.lamps, h.room, {5, 1, 0}).value();
@@ -82,7 +82,7 @@ TEST_CASE("lamps with more images than can be kept are refused, with the number 
 TEST_CASE("what the scene says of mirrors is where too many images are reported", "[light]") {
   Hung many = hung("*22222222", 3);
   const auto source = std::make_shared<const SourceText>(SourceText{"scene.yaml", "bake: {mirrors: 12}\n"});
-  many.scene.bake.mirrors = 12, many.scene.bake.mirrors_span = {source, 1, 17, 2};
+  many.scene.bake.mirror_bounces = 12, many.scene.bake.mirror_bounces_span = {source, 1, 17, 2};
   many.scene.exposure = 1e6;
   const auto lighting = light::prepare_light(many.scene, many.room, light::light_options(many.scene));
   REQUIRE_FALSE(lighting);

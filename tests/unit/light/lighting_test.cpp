@@ -33,12 +33,12 @@ double on_floor(const Lit& l, const geometry::Point& p, double z, double up) {
 
 // Power that arrives on floor, ceiling and walls together: midpoint sums over polar coordinates and over (arc, height).
 double flux(const Lit& l) {
-  const room::Room& room = l.room.room;
+  const room::Room& room = l.room.polygon;
   const double height = l.room.height;
   double sum = 0;
   constexpr int kTurn = 120, kOut = 60, kAlong = 60;
   for (int i = 0; i < kTurn; ++i) {
-    const double phi = 2 * kHalfTurn * (i + 0.5) / kTurn, reach = place::reach(room, phi);
+    const double phi = 2 * kHalfTurn * (i + 0.5) / kTurn, reach = place::distance_to_boundary(room, phi);
     for (int j = 0; j < kOut; ++j) {
       const double r = reach * (j + 0.5) / kOut, area = geometry::sin_k(room.space, r) * reach / kOut * 2 * kHalfTurn / kTurn;
       const geometry::Point p = geometry::point_along(room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
@@ -111,7 +111,7 @@ TEST_CASE("light over a mirror is the light of an image behind it, times the ref
   double expected = on_floor(straight, p, 0, 1);
   const Position lamp = straight.lighting.lamps->lamps[0].centre;
   for (int w = 0; w < 4; ++w) {
-    const geometry::Point image = room::reflection_in_wall(straight.room.room, w) * lamp.floor;
+    const geometry::Point image = room::reflection_in_wall(straight.room.polygon, w) * lamp.floor;
     const double l = std::hypot(geometry::distance(Space::euclidean, image, p), lamp.z);
     expected += 0.9 * 10 / (4 * kHalfTurn * l * l) * lamp.z / l;
   }
@@ -126,7 +126,7 @@ TEST_CASE("on a half sphere light comes back from the mirror, past the antipode"
   const Position lamp = l.lighting.lamps->lamps[0].centre;
   double expected = 0;
   const double d = geometry::distance(Space::spherical, p, lamp.floor);
-  const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.room.room, 0) * lamp.floor);
+  const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.room.polygon, 0) * lamp.floor);
   const std::pair<double, double> ways[] = {
       {d, 1}, {2 * kHalfTurn - d, 0.81}, {2 * kHalfTurn + d, 0.81}, {e, 0.9}, {2 * kHalfTurn - e, 0.9}};
   for (const auto& [arc, weight] : ways) {
@@ -143,8 +143,8 @@ TEST_CASE("rooms that are no orbifolds get each image only through its own mirro
   CHECK(images.size() == 13);
   // The same room, asked word by word, gives the same light.
   Lit by_words = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
-  place::PlacedRoom other = by_words.room;
-  other.room.orbifold.corners[0] = Rational(5, 2);  // only what decides how images are listed
+  place::Interior other = by_words.room;
+  other.polygon.orbifold.corners[0] = Rational(5, 2);  // only what decides how images are listed
   light::LampSet set = *by_words.lighting.lamps;
   set.images = light::lamp_images(set.lamps, other).value();
   by_words.lighting.lamps = std::make_shared<const light::LampSet>(std::move(set));
@@ -179,7 +179,7 @@ TEST_CASE("the mean over the strata of a pixel is the light of a single full sam
         double most = 0, spread = 0;
         for (int k = 0; k < 20; ++k) {
           const geometry::Point p =
-              geometry::point_along(l.room.room.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
+              geometry::point_along(l.room.polygon.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
           const surface::ShadingPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
           const double whole = light::irradiance(l.lighting, point).r / kHalfTurn;
           double sum = 0;

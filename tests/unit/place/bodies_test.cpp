@@ -32,7 +32,7 @@ Measured measured(const char* notation, const std::string& object, double foot =
   const geometry::Point at = place::locate(read->scene.objects[0].place, *room).value();
   const geometry::Isometry foot_from_room = geometry::inverse(geometry::translation_to(room->space, at));
   Measured m;
-  for (const place::PlacedMesh& part : furnished->room.parts) {
+  for (const place::PlacedMesh& part : furnished->interior.parts) {
     if (part.kind != place::PartKind::object) continue;
     for (std::size_t i = 0; i < part.floor.size(); ++i) {
       const std::complex<double> log = geometry::log_from_point(room->space, foot_from_room * part.floor[i]);

@@ -3,7 +3,7 @@
 #include "compiler/geometry/predicates.h"
 #include "compiler/mesh/primitives.h"
 #include "compiler/place/locate.h"
-#include "compiler/place/place.h"
+#include "compiler/place/embed.h"
 #include "rooms.h"
 
 using namespace orbc;

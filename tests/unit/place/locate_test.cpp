@@ -100,7 +100,7 @@ TEST_CASE("towards the middle of a wall, as far as the room goes and no further"
       const Point middle = room::point_on_wall(room, static_cast<int>(i), room.walls[i].length / 2);
       const double far = geometry::distance(room.space, Point{}, middle);
       const int number = static_cast<int>(i) + 1;
-      CHECK(reach(room, std::atan2(middle.y, middle.x)) == Approx(far).epsilon(1e-9));
+      CHECK(distance_to_boundary(room, std::atan2(middle.y, middle.x)) == Approx(far).epsilon(1e-9));
       // On the wall itself the point is rounded into the room.
       CHECK(locate(at(scene::AtToward{false, number, far}), room).has_value());
       const auto beyond = locate(at(scene::AtToward{false, number, far + 0.01}), room);

@@ -154,7 +154,7 @@ TEST_CASE("every triangle of a chequered panel lies in one cell and has its colo
           u = arc_on_wall(room, 0, p), v = z;
         }
         const double cells = std::floor(u / cell) + std::floor(v / cell);
-        REQUIRE(part.look[i] == (std::fmod(cells, 2) != 0 ? 1 : 0));
+        REQUIRE(part.style[i] == (std::fmod(cells, 2) != 0 ? 1 : 0));
       }
   }
 }

@@ -9,7 +9,7 @@
 #include "compiler/geometry/chart.h"
 #include "compiler/geometry/isometry.h"
 #include "compiler/notation/parse.h"
-#include "compiler/place/placed.h"
+#include "compiler/place/interior.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/defaults.h"
 

@@ -87,7 +87,7 @@ uv_mapping
 texture { pigment { OrbcAtlas } finish { emission rgb <0.81,0.6561,0.5> ambient 0 diffuse 0 } }
 }
 )");
-  const Result<image::Image> atlas = mesh::decode_png(files[1].bytes);
+  const Result<image::Image> atlas = image_io::decode_png(files[1].bytes, "PNG");
   REQUIRE(atlas.has_value());
   CHECK(atlas->rgba == test::two_squares().atlas.rgba);
 }
@@ -198,13 +198,13 @@ TEST_CASE("an atlas with holes has a mask beside it, one of more bits its own fi
   CHECK(count(piped, "/* orbc-file leaf-") == 2);
 
   product.masked = false;
-  product.depth = scene::AtlasDepth::sixteen;
+  product.depth = scene::AtlasFormat::srgb16;
   product.atlas16 = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
   const auto deep = pov::write_pov(product, {.name = "deep"});
   CHECK(deep[1].name == "deep-atlas.png");
   CHECK(deep[1].bytes[24] == 16);  // bit depth in IHDR
   CHECK(image_io::decode_png(deep[1].bytes, "PNG").value().rgba == std::vector<std::uint8_t>{255, 128, 0, 255, 10, 20, 30, 255});
-  product.depth = scene::AtlasDepth::exr;
+  product.depth = scene::AtlasFormat::exr;
   const auto exr = pov::write_pov(product, {.name = "deep"});
   CHECK(exr[1].name == "deep-atlas.exr");
   CHECK(exr[1].bytes.substr(0, 4) == "\x76\x2f\x31\x01");

@@ -20,7 +20,7 @@ using namespace orbc;
 namespace {
 
 // A room with emissive floor, ceiling and walls behind mirrors of reflectance rho; nothing stands in it.
-place::PlacedRoom glowing_room(const char* notation, double rho, bool mirrors) {
+place::Interior glowing_room(const char* notation, double rho, bool mirrors) {
   const auto orbifold = *notation::parse(notation);
   scene::Scene s = scene::default_scene(orbifold);
   scene::Material light;
@@ -34,19 +34,19 @@ place::PlacedRoom glowing_room(const char* notation, double rho, bool mirrors) {
     for (scene::Mirror& mirror : wall.mirrors) mirror.reflectance = rho, mirror.frame.reset();
   }
   const auto room = room::realise(orbifold);
-  return place::furnish(s, *room, mesh_io::assets_from_files())->room;
+  return place::furnish(s, *room, mesh_io::assets_from_files())->interior;
 }
 
-place::Eye eye_in(const place::PlacedRoom& room) {
-  place::Eye eye;
-  eye.room_from_eye = geometry::translation_by(room.room.space, 0.05 * room.room.inradius, 0.03 * room.room.inradius);
+place::Camera eye_in(const place::Interior& room) {
+  place::Camera eye;
+  eye.room_from_eye = geometry::translation_by(room.polygon.space, 0.05 * room.polygon.inradius, 0.03 * room.polygon.inradius);
   eye.z = 0.2;
   eye.width = 24, eye.height = 18;
   return eye;
 }
 
 // A room with a mirror ball, a glass ball and a matte box, its walls mirrors, under one lamp or in its plain colours.
-place::PlacedRoom furnished_room(const char* notation, bool lamp, scene::Scene& s) {
+place::Interior furnished_room(const char* notation, bool lamp, scene::Scene& s) {
   s = scene::default_scene(*notation::parse(notation));
   s.room.height = 0.7;
   s.room.floor.material.pattern = scene::Pattern::checker;
@@ -68,7 +68,7 @@ place::PlacedRoom furnished_room(const char* notation, bool lamp, scene::Scene& 
     hung.place.z = 0.6;
     s.lamps = {hung};
   }
-  return place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->room;
+  return place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->interior;
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ TEST_CASE("clear glass in a room of one colour cannot be seen: what it reflects 
     ball.material->color = {1, 1, 1};
     ball.place.floor = scene::AtPolar{0.25, Angle::from_degrees(20)};
     s.objects = {ball};
-    const place::PlacedRoom room = place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->room;
+    const place::Interior room = place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->interior;
     const render::Film film = render::draw(trace::prepare(room), eye_in(room), {}, serial_executor());
     int through = 0;
     for (std::size_t i = 0; i < film.color.size(); ++i) {
@@ -103,13 +103,13 @@ TEST_CASE("drawn in streams the film is that of single rays, bit by bit", "[rend
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const bool lamp : {false, true}) {
       scene::Scene s;
-      const place::PlacedRoom room = furnished_room(notation, lamp, s);
+      const place::Interior room = furnished_room(notation, lamp, s);
       const trace::TraceScene scene = trace::prepare(room);
       const light::LightingContext light = *light::prepare_light(s, room);
       render::DrawOptions options;
       options.samples = 3;
       if (lamp) options.lighting = &light;
-      const place::Eye eye = eye_in(room);
+      const place::Camera eye = eye_in(room);
       const render::Film film = render::draw(scene, eye, options, serial_executor());
       const auto points = render::sample_points(options.samples);
       int different = 0, objects = 0;
@@ -154,7 +154,7 @@ TEST_CASE("samples of a pixel are distinct points of it, centred", "[render]") {
 
 TEST_CASE("inside walls that all glow alike every pixel has their radiance", "[render]") {
   for (const char* notation : {"*222", "*2222", "*22222", "*237"}) {
-    const place::PlacedRoom room = glowing_room(notation, 0, false);
+    const place::Interior room = glowing_room(notation, 0, false);
     const trace::TraceScene scene = trace::prepare(room);
     const render::Film film = render::draw(scene, eye_in(room), {}, serial_executor());
     for (const scene::Color& c : film.color) {
@@ -168,7 +168,7 @@ TEST_CASE("inside walls that all glow alike every pixel has their radiance", "[r
 TEST_CASE("seen through mirrors a glowing floor has its radiance times the weight of the path", "[render]") {
   const double rho = 0.7;
   for (const char* notation : {"*222", "*333", "*22222"}) {
-    const place::PlacedRoom room = glowing_room(notation, rho, true);
+    const place::Interior room = glowing_room(notation, rho, true);
     const trace::TraceScene scene = trace::prepare(room);
     render::DrawOptions options;
     options.max_bounces = 40;
@@ -184,7 +184,7 @@ TEST_CASE("seen through mirrors a glowing floor has its radiance times the weigh
 }
 
 TEST_CASE("the film does not depend on the order in which tiles are drawn", "[render]") {
-  const place::PlacedRoom room = glowing_room("*2323", 0.8, true);
+  const place::Interior room = glowing_room("*2323", 0.8, true);
   const trace::TraceScene scene = trace::prepare(room);
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     for (std::size_t i = count; i-- > 0;) task(i);
@@ -222,13 +222,13 @@ TEST_CASE("bytes of a picture are the rounded encoded values, whichever way they
 TEST_CASE("threads prepare and draw what one alone does", "[render][threads]") {
   for (const bool lamp : {false, true}) {
     scene::Scene s;
-    const place::PlacedRoom room = furnished_room("*22222", lamp, s);
+    const place::Interior room = furnished_room("*22222", lamp, s);
     const auto film = [&](const Executor& executor) {
       const trace::TraceScene scene = trace::prepare(room, executor);
       const light::LightingContext light = *light::prepare_light(s, room, {}, executor);
       render::DrawOptions options;
       if (lamp) options.lighting = &light;
-      place::Eye eye = eye_in(room);
+      place::Camera eye = eye_in(room);
       eye.width = 48, eye.height = 40;
       return image_io::encode_exr(render::to_float_image(render::draw(scene, eye, options, executor)));
     };
@@ -238,7 +238,7 @@ TEST_CASE("threads prepare and draw what one alone does", "[render][threads]") {
 }
 
 TEST_CASE("what is cut off shows the background as it is", "[render]") {
-  const place::PlacedRoom room = glowing_room("*2222", 0.5, true);
+  const place::Interior room = glowing_room("*2222", 0.5, true);
   const trace::TraceScene scene = trace::prepare(room);
   render::DrawOptions options;
   options.max_bounces = 0;

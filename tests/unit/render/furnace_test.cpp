@@ -20,7 +20,7 @@ scene::Scene furnace(const char* notation, const std::array<double, 3>& reflecta
   s.room.height = 0.6;
   std::size_t i = 0;
   const auto set = [&](scene::Mirror& mirror) {
-    mirror.reflectance = reflectance[i % 3], mirror.glow = glow[i % 3], mirror.frame.reset();
+    mirror.reflectance = reflectance[i % 3], mirror.emission = glow[i % 3], mirror.frame.reset();
     ++i;
   };
   for (scene::Wall& wall : s.room.walls)
@@ -30,19 +30,19 @@ scene::Scene furnace(const char* notation, const std::array<double, 3>& reflecta
   return s;
 }
 
-place::PlacedRoom room_of(const scene::Scene& s) {
-  return place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->room;
+place::Interior room_of(const scene::Scene& s) {
+  return place::furnish(s, *room::realise(s.orbifold), mesh_io::assets_from_files())->interior;
 }
 
-place::Eye furnace_eye(const place::PlacedRoom& room) {
-  place::Eye eye;
-  eye.room_from_eye = geometry::translation_by(room.room.space, 0.06 * room.room.inradius, 0.03 * room.room.inradius);
+place::Camera furnace_eye(const place::Interior& room) {
+  place::Camera eye;
+  eye.room_from_eye = geometry::translation_by(room.polygon.space, 0.06 * room.polygon.inradius, 0.03 * room.polygon.inradius);
   eye.z = 0.2;
   eye.width = 32, eye.height = 24;
   return eye;
 }
 
-render::Film draw(const place::PlacedRoom& room, int bounces) {
+render::Film draw(const place::Interior& room, int bounces) {
   render::DrawOptions options;
   options.max_bounces = bounces;
   options.max_depth = 1000;
@@ -51,14 +51,14 @@ render::Film draw(const place::PlacedRoom& room, int bounces) {
 
 /// The same sum by a way of its own: in long double, the geodesic unreflected and the lines of the walls moved instead; storeys by
 /// division.
-scene::Color unfolded(const place::PlacedRoom& room, const trace::Ray& ray, int bounces) {
+scene::Color unfolded(const place::Interior& room, const trace::Ray& ray, int bounces) {
   using Real = long double;
-  const Real k = geometry::curvature(room.room.space);
+  const Real k = geometry::curvature(room.polygon.space);
   struct Line {
     Real w, x, y;
   };
   std::vector<Line> lines;
-  for (const room::Wall& wall : room.room.walls) lines.push_back({wall.line.w, wall.line.x, wall.line.y});
+  for (const room::Wall& wall : room.polygon.walls) lines.push_back({wall.line.w, wall.line.x, wall.line.y});
   const auto mirror_on = [&](int wall) {
     for (const place::PlacedMirror& mirror : room.mirrors)
       if (mirror.wall == wall) return mirror;
@@ -90,7 +90,7 @@ scene::Color unfolded(const place::PlacedRoom& room, const trace::Ray& ray, int 
     const bool plane = to_plane < to_wall;
     const bool up = (ray.m > 0) == (storeys % 2 == 0);
     const place::PlacedMirror mirror = mirror_on(plane ? (up ? trace::kCeiling : trace::kFloor) : wall);
-    sum = sum + weight * mirror.glow;
+    sum = sum + weight * mirror.emission;
     weight = weight * mirror.throughput;
     if (plane) {
       ++storeys;
@@ -157,9 +157,9 @@ TEST_CASE("mirrors that differ but glow like black bodies of one brightness show
 
 TEST_CASE("mirrors that differ in reflectance and glow are summed up in the order in which they are met", "[render]") {
   for (const char* notation : {"*222", "*233", "*2222", "*333", "*22222", "*2323"}) {
-    const place::PlacedRoom room =
+    const place::Interior room =
         room_of(furnace(notation, {0.7, 0.35, 0.5}, {scene::Color{0.5, 0, 0.1}, scene::Color{0, 0.4, 0.1}, scene::Color{0.1, 0.1, 0.6}}));
-    const place::Eye eye = furnace_eye(room);
+    const place::Camera eye = furnace_eye(room);
     const render::Film film = draw(room, 14);
     double worst = 0, least = 9, most = 0;
     for (int y = 0; y < eye.height; ++y)

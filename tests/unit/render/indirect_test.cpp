@@ -20,7 +20,7 @@ namespace {
 
 struct Lit {
   scene::Scene scene;
-  place::PlacedRoom room;
+  place::Interior room;
   light::LightingContext lighting;
   trace::TraceScene traced;
 };
@@ -28,7 +28,8 @@ struct Lit {
 std::unique_ptr<Lit> lit(const scene::Scene& scene, int passes, int mirrors = 2) {
   auto result = std::make_unique<Lit>();
   result->scene = scene;
-  result->room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
+  result->room =
+      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().interior;
   light::LightOptions options;
   options.bounces = mirrors, options.indirect_bounces = passes, options.cull_below = 0, options.path_bounces = 400;
   result->lighting = light::prepare_light(result->scene, result->room, options).value();
@@ -45,9 +46,9 @@ render::DrawOptions drawing(const Lit& l, int samples) {
   return options;
 }
 
-place::Eye eye_in(const place::PlacedRoom& room, int width, int height) {
-  place::Eye eye;
-  eye.room_from_eye = geometry::translation_by(room.room.space, 0.05 * room.room.inradius, 0.03 * room.room.inradius);
+place::Camera eye_in(const place::Interior& room, int width, int height) {
+  place::Camera eye;
+  eye.room_from_eye = geometry::translation_by(room.polygon.space, 0.05 * room.polygon.inradius, 0.03 * room.polygon.inradius);
   eye.z = 0.3 * room.height;
   eye.width = width, eye.height = height;
   return eye;
@@ -143,7 +144,7 @@ TEST_CASE("metal shows what it keeps of a furnace: white all of it, however roug
       s.objects[0].material->roughness = roughness;
       s.objects[0].material->color = {1, 0.5, 0.25};
       const auto l = lit(s, 8);
-      const place::Eye eye = eye_in(l->room, 32, 24);
+      const place::Camera eye = eye_in(l->room, 32, 24);
       render::Film film = render::draw(l->traced, eye, drawing(*l, 1), serial_executor());
       int ball = 0;
       double sum = 0;
@@ -176,7 +177,7 @@ TEST_CASE("gloss and metal under lamps are as bright by few samples a pixel as b
       lamp.place.z = 0.8;
       s.lamps = {lamp};
       const auto l = lit(s, 0);
-      const place::Eye eye = eye_in(l->room, 48, 36);
+      const place::Camera eye = eye_in(l->room, 48, 36);
       std::vector<double> means;
       for (const int samples : {4, 9, 36}) {
         render::DrawOptions options = drawing(*l, samples);
@@ -285,7 +286,7 @@ TEST_CASE("the mean of estimates by one shadow ray is the irradiance of the lamp
     lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
     s.lamps = {lamp};
     const auto l = lit(s, 1, 2);
-    const geometry::Point at = geometry::point_along(l->room.room.space, {}, geometry::Tangent(0, 0.6, 0.8), 0.21);
+    const geometry::Point at = geometry::point_along(l->room.polygon.space, {}, geometry::Tangent(0, 0.6, 0.8), 0.21);
     const surface::ShadingPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
     surface::Random random(3);
     double sum = 0, squares = 0;
@@ -336,7 +337,7 @@ TEST_CASE("where a box stands on the floor the bake agrees with path tracing, wi
         render::PixelSampler chance(1, static_cast<std::uint64_t>(++compared), 0, 1);
         const scene::Color passed = render::indirect_irradiance(l->room, l->lighting, at, chance, 3000);
         const scene::Color truth =
-            light::outgoing_radiance(l->lighting, l->room.looks[static_cast<std::size_t>(point.look)].material, {0.7, 0.7, 0.7},
+            light::outgoing_radiance(l->lighting, l->room.styles[static_cast<std::size_t>(point.style)].material, {0.7, 0.7, 0.7},
                                      light::irradiance(l->lighting, at) + std::numbers::pi * passed);
         const double off = 255 * (image::encode_srgb(shown->r) - image::encode_srgb(truth.r));
         worst = std::max(worst, std::fabs(off));

@@ -20,8 +20,8 @@ using geometry::Vector3;
 
 namespace {
 
-place::Eye eye_with_lens(Space space, double radius, double focus) {
-  place::Eye eye;
+place::Camera eye_with_lens(Space space, double radius, double focus) {
+  place::Camera eye;
   eye.room_from_eye = geometry::translation_by(space, 0.11, -0.07);
   eye.z = 0.6;
   const double a = 0.4, e = -0.3;
@@ -29,7 +29,7 @@ place::Eye eye_with_lens(Space space, double radius, double focus) {
   eye.right = {std::sin(a), -std::cos(a), 0};
   eye.up = geometry::cross(eye.right, eye.forward);
   eye.width = 80, eye.height = 60;
-  eye.lens = place::EyeLens{radius, focus};
+  eye.lens = place::ThinLens{radius, focus};
   return eye;
 }
 
@@ -38,7 +38,7 @@ double apart(Space space, const geometry::Position& a, const geometry::Position&
 }
 
 // A square room with black walls, seen along +x from its middle: a small bright ball before the black.
-place::PlacedRoom room_with_ball(double distance, double radius) {
+place::Interior room_with_ball(double distance, double radius) {
   scene::Scene s = scene::default_scene(*notation::parse("*2222"));
   s.room.shape.scale = 2;
   s.room.height = 2;
@@ -50,7 +50,7 @@ place::PlacedRoom room_with_ball(double distance, double radius) {
   ball.place.floor = scene::AtXy{distance, 0};
   ball.place.z = 1 - radius;
   s.objects = {ball};
-  return place::furnish(s, *room::realise(s.orbifold, s.room.shape), mesh_io::assets_from_files())->room;
+  return place::furnish(s, *room::realise(s.orbifold, s.room.shape), mesh_io::assets_from_files())->interior;
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ TEST_CASE("all rays of a point of the picture meet at the focus distance along t
   for (const Space space : {Space::euclidean, Space::hyperbolic, Space::spherical})
     for (const double focus : {0.05, 0.8, 2.9}) {
       CAPTURE(geometry::name(space), focus);
-      const place::Eye eye = eye_with_lens(space, 0.03, focus);
+      const place::Camera eye = eye_with_lens(space, 0.03, focus);
       const geometry::Position middle{eye.room_from_eye * Point{}, eye.z};
       for (const auto& [x, y] : {std::pair{40.0, 30.0}, {3.5, 7.25}, {79.0, 59.0}}) {
         const geometry::Position sharp = trace::position_at(space, render::eye_ray(eye, x, y), focus);
@@ -82,7 +82,7 @@ TEST_CASE("what is nearer or farther than the focus is blurred as wide as the sp
   for (const Space space : {Space::euclidean, Space::hyperbolic, Space::spherical})
     for (const auto& [focus, distance] : {std::pair{0.8, 1.2}, {0.8, 0.3}, {2.2, 0.7}}) {
       CAPTURE(geometry::name(space), focus, distance);
-      place::Eye eye = eye_with_lens(space, a, focus);
+      place::Camera eye = eye_with_lens(space, a, focus);
       eye.forward = {1, 0, 0}, eye.right = {0, -1, 0}, eye.up = {0, 0, 1};
       const trace::Ray ray = render::lens_ray(eye, 40, 30, {1, 0});
       CHECK(ray.m == Approx(0).margin(1e-15));
@@ -105,8 +105,8 @@ TEST_CASE("what is nearer or farther than the focus is blurred as wide as the sp
 
 TEST_CASE("a point of light out of focus is a disk of the size of the circle of confusion, in focus a point", "[render]") {
   const double ball = 0.01, distance = 1.2, lens = 0.04;
-  const place::PlacedRoom room = room_with_ball(distance, ball);
-  place::Eye eye;
+  const place::Interior room = room_with_ball(distance, ball);
+  place::Camera eye;
   eye.room_from_eye = geometry::identity(Space::euclidean);
   eye.z = 1;
   eye.width = eye.height = 81;
@@ -117,7 +117,7 @@ TEST_CASE("a point of light out of focus is a disk of the size of the circle of 
   const double pixels = place::pixels_per_radian(eye), seen = ball / distance * pixels;
   // Of a disk of even brightness: its light, and its radius by the second moment, ⟨r²⟩ = R²/2.
   const auto measured = [&](double focus) {
-    eye.lens = place::EyeLens{lens, focus};
+    eye.lens = place::ThinLens{lens, focus};
     const render::Film film = render::draw(scene, eye, options, serial_executor());
     double light = 0, moment = 0;
     for (int y = 0; y < eye.height; ++y)
@@ -140,8 +140,8 @@ TEST_CASE("a point of light out of focus is a disk of the size of the circle of 
 }
 
 TEST_CASE("a picture through a lens is the same for any number of threads", "[render]") {
-  const place::PlacedRoom room = room_with_ball(1.2, 0.1);
-  place::Eye eye = eye_with_lens(Space::euclidean, 0.05, 0.5);
+  const place::Interior room = room_with_ball(1.2, 0.1);
+  place::Camera eye = eye_with_lens(Space::euclidean, 0.05, 0.5);
   render::DrawOptions options;
   options.samples = 5;
   const auto scene = trace::prepare(room);

@@ -14,8 +14,8 @@ using namespace orbc;
 namespace {
 
 notation::Orbifold any_orbifold(const std::string& text) { return notation::parse(text, {{}, true}).value(); }
-int default_bounces(const std::string& text, int level_mirrors = 0) {
-  return scene::default_max_bounces(any_orbifold(text), level_mirrors);
+int default_bounces(const std::string& text, int horizontal_mirrors = 0) {
+  return scene::default_max_bounces(any_orbifold(text), horizontal_mirrors);
 }
 
 }  // namespace

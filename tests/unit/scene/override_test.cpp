@@ -24,7 +24,7 @@ lights:
 camera: {at: {polar: [0.4, 200deg], z: 0.5}, fov: 80deg}
 )";
 
-Result<Read> with(const std::vector<std::string>& said, const std::string& text = kScene) {
+Result<ReadResult> with(const std::vector<std::string>& said, const std::string& text = kScene) {
   Overrides overrides;
   for (const std::string& one : said) overrides.push_back({"<--set " + std::to_string(overrides.size() + 1) + ">", one});
   return read_scene(SourceText{"s.yaml", text}, "", overrides);

@@ -14,13 +14,13 @@ using namespace orbc::scene;
 
 namespace {
 
-Read good(const std::string& name) {
+ReadResult good(const std::string& name) {
   auto read = load_scene(std::string(ORBC_SOURCE_DIR) + "/tests/scenes/good/" + name + ".yaml");
   if (!read) FAIL(to_text(read.error()));
   return std::move(*read);
 }
 
-Result<Read> read_text(const std::string& rest) { return read_scene(SourceText{"s.yaml", "orbc: 1\norbifold: \"*22222\"\n" + rest}); }
+Result<ReadResult> read_text(const std::string& rest) { return read_scene(SourceText{"s.yaml", "orbc: 1\norbifold: \"*22222\"\n" + rest}); }
 
 }  // namespace
 
@@ -30,7 +30,7 @@ TEST_CASE("the smallest scene is two lines and gets every default", "[scene]") {
   for (const Wall& wall : scene.room.walls) {
     REQUIRE(wall.mirrors.size() == 1);
     CHECK(wall.mirrors[0].reflectance == 0.9);
-    CHECK_FALSE(wall.mirrors[0].span);
+    CHECK_FALSE(wall.mirrors[0].arc);
     CHECK_FALSE(wall.mirrors[0].frame);
   }
   CHECK(scene.room.height == 1);
@@ -48,7 +48,7 @@ TEST_CASE("the smallest scene is two lines and gets every default", "[scene]") {
 }
 
 TEST_CASE("the sketch of the design means what it says", "[scene]") {
-  const Read read = good("sketch");
+  const ReadResult read = good("sketch");
   const Scene& scene = read.scene;
   CHECK(read.notes.empty());
   CHECK(scene.room.height == 1.2);
@@ -61,7 +61,7 @@ TEST_CASE("the sketch of the design means what it says", "[scene]") {
   const Wall& second = scene.room.walls[1];
   CHECK(second.material.color == *named_color("brown"));
   REQUIRE(second.mirrors.size() == 1);
-  CHECK(*second.mirrors[0].span == std::array<double, 2>{0.1, 0.5});
+  CHECK(*second.mirrors[0].arc == std::array<double, 2>{0.1, 0.5});
   CHECK(*second.mirrors[0].height == std::array<double, 2>{0.2, 0.9});
   CHECK(second.mirrors[0].tint == from_hex(0xffeedd));
   CHECK(second.mirrors[0].frame);  // of `all`
@@ -177,7 +177,7 @@ TEST_CASE("objects have names, sizes and looks", "[scene]") {
   CHECK(std::get<TorusSpec>(scene.objects[7].shape).tube == 0.02);
   CHECK(scene.objects[7].material->kind == MaterialKind::metal);
   CHECK(std::get<TorusKnotSpec>(scene.objects[8].shape).q == 4);
-  const auto& beam = std::get<BeamSpec>(scene.objects[9].shape);
+  const auto& beam = std::get<BarSpec>(scene.objects[9].shape);
   CHECK(std::get<AtToward>(beam.to.floor).number == 3);
   CHECK(beam.to.z == 0.8);
   CHECK_FALSE(beam.from.z);

@@ -56,13 +56,13 @@ TEST_CASE("the defaults of the schema are the reader's", "[scene]") {
   REQUIRE(lamp.falloff == Falloff::geodesic);
   REQUIRE(lamp.color == *named_color("white"));
   REQUIRE(mirror.tint == *named_color("white"));
-  REQUIRE(mirror.glow == *named_color("black"));
+  REQUIRE(mirror.emission == *named_color("black"));
   REQUIRE(scene.ambient == *named_color("black"));
   REQUIRE(scene.cover.background == *named_color("black"));
   REQUIRE_FALSE(scene.cover.background_expected);
   REQUIRE(scene.integrator == Integrator::direct);
-  REQUIRE(scene.bake.atlas == AtlasDepth::eight);
-  REQUIRE(scene.bake.lights == LightsBy::baked);
+  REQUIRE(scene.bake.atlas == AtlasFormat::srgb8);
+  REQUIRE(scene.bake.lights == LightMode::baked);
   REQUIRE(scene.bake.quality == BakeQuality::normal);
   REQUIRE(scene.camera.projection == Projection::perspective);
   REQUIRE(object.turn.degrees() == 0);
@@ -78,7 +78,7 @@ TEST_CASE("the defaults of the schema are the reader's", "[scene]") {
       {"torus/properties/radius", TorusSpec{}.radius}, {"torus/properties/tube", TorusSpec{}.tube},
       {"torus_knot/properties/p", TorusKnotSpec{}.p}, {"torus_knot/properties/q", TorusKnotSpec{}.q},
       {"torus_knot/properties/radius", TorusKnotSpec{}.radius}, {"torus_knot/properties/tube", TorusKnotSpec{}.tube},
-      {"beam/properties/width", BeamSpec{}.width}, {"properties/embedding", "conformal"}, {"properties/turn", 0},
+      {"beam/properties/width", BarSpec{}.width}, {"properties/embedding", "conformal"}, {"properties/turn", 0},
       {"objects/items/properties/scale", object.scale}, {"properties/rotate", Json::array({0, 0, 0})}, {"properties/roll", 0},
       {"lens/properties/radius", Lens{}.radius},
       {"lights/items/properties/kind", "sphere"}, {"lights/items/properties/radius", lamp.radius},
@@ -86,14 +86,14 @@ TEST_CASE("the defaults of the schema are the reader's", "[scene]") {
       {"lights/items/properties/color", "white"}, {"properties/cone", degrees(lamp.cone)}, {"properties/visible", lamp.visible},
       {"properties/falloff", "geodesic"}, {"properties/ambient", "black"}, {"properties/exposure", scene.exposure},
       {"properties/integrator", "direct"}, {"bake/properties/atlas", 8}, {"bake/properties/lights", "baked"},
-      {"bake/properties/bounces", scene.bake.bounces}, {"bake/properties/mirrors", scene.bake.mirrors},
+      {"bake/properties/bounces", scene.bake.indirect_bounces}, {"bake/properties/mirrors", scene.bake.mirror_bounces},
       {"bake/properties/quality", "normal"}, {"bake/properties/seed", scene.bake.seed}, {"properties/azimuth", 0},
       {"properties/elevation", 0}, {"properties/projection", "perspective"}, {"properties/fov", degrees(scene.camera.fov)},
       {"camera/properties/size", scene.camera.size}, {"properties/min_weight", scene.cover.min_weight},
       {"properties/min_pixels", scene.cover.min_pixels}, {"properties/background", "black"}, {"properties/kind", "matte"},
       {"properties/color", srgb(material.color)}, {"properties/pattern", "plain"}, {"properties/cell", material.cell},
       {"properties/roughness", material.roughness}, {"properties/index", material.index}, {"properties/emission", material.emission},
-      {"properties/cutoff", material.cutoff}, {"properties/width", Frame{}.width}, {"properties/reflectance", mirror.reflectance},
+      {"properties/cutoff", material.alpha_cutoff}, {"properties/width", Frame{}.width}, {"properties/reflectance", mirror.reflectance},
       {"properties/tint", "white"}, {"properties/glow", "black"}};
   std::map<std::string, Json> told;
   collect(schema(), "", told);

@@ -18,19 +18,19 @@ TEST_CASE("floor, ceiling and walls are cut from one stone, the same for a trian
   scene.room.floor.material = scene.room.ceiling.material = marble;
   scene.room.walls[0].material = marble;
   scene.room.walls[0].mirrors.clear();
-  const place::PlacedRoom room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().room;
+  const place::Interior room = place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().interior;
   int compared = 0, veins = 0;
   for (std::size_t p = 0; p < room.parts.size(); ++p) {
     const place::PlacedMesh& part = room.parts[p];
-    if (room.looks[part.look[0]].material.pattern != scene::Pattern::marble) continue;
+    if (room.styles[part.style[0]].material.pattern != scene::Pattern::marble) continue;
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (const std::array<double, 3>& b : {std::array<double, 3>{0.2, 0.3, 0.5}, {0.7, 0.1, 0.2}, {0.05, 0.9, 0.05}}) {
         trace::SurfacePoint point;
         geometry::Ambient sum{0, 0, 0};
         for (std::size_t k = 0; k < 3; ++k)
           sum = sum + b[k] * part.floor[part.triangles[t][k]], point.at.z += b[k] * part.z[part.triangles[t][k]];
-        point.at.floor = geometry::normalised_point(room.room.space, sum);
-        point.part = static_cast<int>(p), point.look = part.look[t];
+        point.at.floor = geometry::normalised_point(room.polygon.space, sum);
+        point.part = static_cast<int>(p), point.style = part.style[t];
         const scene::Color here = surface::triangle_albedo(room, part, t, b), there = surface::hit_albedo(room, point);
         CHECK(here.g == Approx(there.g).margin(1e-12));
         veins += here.g < 0.6;

@@ -23,7 +23,7 @@ trace::SurfacePoint met(Space space, double facing) {
   const surface::TangentFrame frame = surface::tangent_frame(space, point.at.floor);
   const Vector3 n = geometry::normalised({0.3, -0.5, 0.6}), across = geometry::normalised(cross(n, {0, 0, 1}));
   point.normal = surface::to_ambient(frame, n);
-  point.arriving = surface::to_ambient(frame, -1.0 * (facing * n + std::sqrt(1 - facing * facing) * across));
+  point.incoming = surface::to_ambient(frame, -1.0 * (facing * n + std::sqrt(1 - facing * facing) * across));
   return point;
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("the mean over sampled directions is the integral of the microfacet mo
               way.weight * surface::fresnel_schlick(f0, way.cos_half).r * sky(surface::to_local(space, frame, way.direction)) / kWays;
         }
         // D·F·G/(4·cos·cos), times cos, over the half sphere
-        const Vector3 n = surface::to_local(space, frame, point.normal), v = -1.0 * surface::to_local(space, frame, point.arriving);
+        const Vector3 n = surface::to_local(space, frame, point.normal), v = -1.0 * surface::to_local(space, frame, point.incoming);
         const Vector3 e = geometry::normalised(cross(n, {1, 0, 0})), f = cross(n, e);
         double whole = 0;
         constexpr int kUp = 600, kRound = 600;
@@ -71,7 +71,7 @@ TEST_CASE("the mean over sampled directions is the integral of the microfacet mo
 
 TEST_CASE("a smooth metal reflects as a mirror does", "[surface]") {
   const trace::SurfacePoint point = met(Space::hyperbolic, 0.5);
-  const trace::Direction expected = point.arriving + (2 * 0.5) * point.normal;
+  const trace::Direction expected = point.incoming + (2 * 0.5) * point.normal;
   for (int k = 0; k < 50; ++k) {
     const auto u = surface::r3_point(k);
     const surface::BsdfSample way = surface::sample_ggx(Space::hyperbolic, point, 0.0005, {u[0], u[1]});

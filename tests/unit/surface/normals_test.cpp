@@ -18,8 +18,8 @@ TEST_CASE("the normals of a ball are those of the sphere, those of a box are its
   scene.objects[0].shape = scene::SphereSpec{0.1};
   scene.objects[1].shape = scene::BoxSpec{};
   scene.objects[1].place.floor = scene::AtPolar{0.3, Angle::from_degrees(120)};
-  const place::PlacedRoom room =
-      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().room;
+  const place::Interior room =
+      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().interior;
   const std::size_t count = room.parts.size();
   const place::PlacedMesh &ball = room.parts[count - 2], &box = room.parts[count - 1];
   const surface::PartNormals round = surface::part_normals(room, ball), flat = surface::part_normals(room, box);

@@ -6,7 +6,7 @@
 
 #include "compiler/geometry/chart.h"
 #include "compiler/geometry/isometry.h"
-#include "compiler/trace/bvh.h"
+#include "compiler/trace/bvh/bvh.h"
 #include "compiler/trace/follow.h"
 
 namespace orbc::trace::testing {
@@ -95,12 +95,12 @@ inline room::Room half_lune(int k) {
   return room;
 }
 
-inline place::PlacedRoom furnished(room::Room room, double height = 1, double reflectance = 0.9) {
-  place::PlacedRoom placed;
+inline place::Interior furnished(room::Room room, double height = 1, double reflectance = 0.9) {
+  place::Interior placed;
   placed.height = height;
   for (int i = 0; i < static_cast<int>(room.walls.size()); ++i)
     placed.mirrors.push_back({i, {0, room.walls[i].length}, {0, height}, {reflectance, reflectance, reflectance}});
-  placed.room = std::move(room);
+  placed.polygon = std::move(room);
   return placed;
 }
 
@@ -131,7 +131,7 @@ inline place::PlacedMesh torus_knot(Space space, const Point& centre, double rad
       mesh.triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
       mesh.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
     }
-  mesh.look.assign(mesh.triangles.size(), 0);
+  mesh.style.assign(mesh.triangles.size(), 0);
   return mesh;
 }
 
@@ -152,23 +152,23 @@ inline Direction random_direction(Space space, const Point& at, Random& random, 
   return {c * v, m};
 }
 
-inline Ray random_ray(const place::PlacedRoom& placed, Random& random, double steep = 1) {
-  const Point p = random_point(placed.room, random);
-  return ray_from(placed.room.space, {p, random.between(0, placed.height)}, random_direction(placed.room.space, p, random, steep));
+inline Ray random_ray(const place::Interior& placed, Random& random, double steep = 1) {
+  const Point p = random_point(placed.polygon, random);
+  return ray_from(placed.polygon.space, {p, random.between(0, placed.height)}, random_direction(placed.polygon.space, p, random, steep));
 }
 
 /// Random triangles with corners anywhere within `size` of a random point.
-inline place::PlacedMesh soup_of(const place::PlacedRoom& placed, int count, double size, Random& random) {
+inline place::PlacedMesh soup_of(const place::Interior& placed, int count, double size, Random& random) {
   place::PlacedMesh mesh;
-  const Space space = placed.room.space;
+  const Space space = placed.polygon.space;
   for (int i = 0; i < count; ++i) {
-    const Point middle = random_point(placed.room, random);
+    const Point middle = random_point(placed.polygon, random);
     const double z = random.between(0, placed.height);
     const auto move = geometry::translation_to(space, middle);
     for (std::uint32_t j = 0; j < 3; ++j) {
       Point p = move * at_polar(space, size * random.unit(), random.between(0, 2 * kPi));
       for (int trial = 0; trial < 100 && [&] {
-             for (const auto& wall : placed.room.walls)
+             for (const auto& wall : placed.polygon.walls)
                if (geometry::value_at(wall.line, p) <= 0) return true;
              return false;
            }(); ++trial)
@@ -179,17 +179,17 @@ inline place::PlacedMesh soup_of(const place::PlacedRoom& placed, int count, dou
     const auto first = static_cast<std::uint32_t>(3 * i);
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
-  mesh.look.assign(mesh.triangles.size(), 0);
+  mesh.style.assign(mesh.triangles.size(), 0);
   return mesh;
 }
 
 /// The brute-force twin of closest_triangle: `intersect` on every triangle.
-inline BvhHit try_all(Space space, const Soup& soup, const Ray& ray, double t_max) {
+inline BvhHit try_all(Space space, const SceneTriangles& soup, const Ray& ray, double t_max) {
   BvhHit best;
   best.t = t_max;
   const RayPlane plane = plane_of(space, ray);
-  for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
-    const auto& v = soup.triangles[i];
+  for (std::uint32_t i = 0; i < soup.corners.size(); ++i) {
+    const auto& v = soup.corners[i];
     const TriangleHit hit = intersect(plane, soup.vertices[v[0]], soup.vertices[v[1]], soup.vertices[v[2]], best.t);
     if (hit.found) best = {i, hit.t, {hit.b[0], hit.b[1], hit.b[2]}};
   }
