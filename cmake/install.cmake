@@ -11,7 +11,6 @@ install(PROGRAMS scripts/povray-pipe scripts/render_blender.py DESTINATION ${ORB
 install(FILES schema/orbc-scene.schema.json schema/diagnostics.md DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
 install(DIRECTORY examples DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program RENAME copyright)
-install(FILES third_party/earcut/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}/third-party COMPONENT program RENAME earcut)
 install(FILES README.md THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 # Notices of what is compiled in from headers and static libraries; shared libraries bring their own.
 foreach(package libboost1.74-dev libcgal-dev libcli11-dev libhwy-dev libopenmesh-dev libtinygltf-dev nlohmann-json3-dev)

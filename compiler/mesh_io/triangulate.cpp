@@ -1,6 +1,6 @@
 // Ear clipping after Meisters (1975), in three dimensions by signs against the polygon's area vector (Newell), which is right for planar
-// polygons and sensible for slightly bent ones. Long polygons, and those that touch themselves, go to earcut (third_party/earcut) in the
-// plane of two axes.
+// polygons and sensible for slightly bent ones. Long polygons, and those that touch themselves, are cut in the plane of two axes
+// (ear_clipping.h).
 #include "compiler/mesh_io/triangulate.h"
 
 #include <algorithm>
@@ -8,14 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#pragma GCC diagnostic ignored "-Wextra"
-#include "third_party/earcut/earcut.hpp"
-#pragma GCC diagnostic pop
+#include "compiler/mesh_io/ear_clipping.h"
 
 namespace orbc::mesh_io {
 namespace {
@@ -23,7 +16,7 @@ namespace {
 using geometry::Vector3;
 using mesh::Triangle;
 
-/// Polygons of more corners than this are left to earcut: choosing the best ear takes their number to the third.
+/// Polygons of more corners than this are cut as ears come: choosing the best ear takes the third power of their number.
 constexpr std::size_t kMaxCornersForBestEars = 256;
 
 /// The area vector of a polygon: its length is twice the area, its direction the normal.
@@ -88,65 +81,30 @@ std::vector<Triangle> fan(std::size_t corners) {
   return triangles;
 }
 
-using Point2 = std::array<double, 2>;
-
-/// The polygon seen along the axis that is nearest to its normal.
-std::vector<Point2> projected(const std::vector<Vector3>& polygon, const Vector3& normal) {
+/// The polygon, counter-clockwise, seen along the axis that is nearest to its normal.
+std::vector<PlanePoint> projected(const std::vector<Vector3>& polygon, const Vector3& normal) {
   const double ax = std::abs(normal.x), ay = std::abs(normal.y), az = std::abs(normal.z);
   const int axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
-  std::vector<Point2> ring;
+  const bool from_behind = (axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z) < 0;
+  std::vector<PlanePoint> ring;
   for (const auto& p : polygon) {
     const Vector3 q = p - polygon[0];
-    ring.push_back(axis == 0 ? Point2{q.y, q.z} : axis == 1 ? Point2{q.z, q.x} : Point2{q.x, q.y});
+    const PlanePoint seen = axis == 0 ? PlanePoint{q.y, q.z} : axis == 1 ? PlanePoint{q.z, q.x} : PlanePoint{q.x, q.y};
+    ring.push_back(from_behind ? PlanePoint{seen[1], seen[0]} : seen);
   }
   return ring;
 }
 
-double orientation(const Point2& a, const Point2& b, const Point2& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
+/// Corner tests that ear clipping may spend on one corner of a long polygon. Simple polygons need up to 200; more is spent only on polygons
+/// that cross themselves, which have no right answer.
+constexpr std::int64_t kMaxStepsPerCorner = 1000;
 
-bool cross_properly(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
-  return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
-}
-
-/// Whether two sides cross, by a sweep along x; also when the work is spent before that is known. earcut takes such polygons too, but
-/// needs time of the third power of their corners.
-bool crosses_itself(const std::vector<Point2>& ring, std::int64_t& side_tests) {
-  struct Side {
-    double low, high;
-    Point2 from, to;
-  };
-  std::vector<Side> sides;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    sides.push_back({std::min(a[0], b[0]), std::max(a[0], b[0]), a, b});
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.low < b.low; });
-  std::vector<const Side*> active;
-  for (const Side& side : sides) {
-    active.erase(std::remove_if(active.begin(), active.end(), [&](const Side* s) { return s->high < side.low; }), active.end());
-    side_tests -= static_cast<std::int64_t>(active.size());
-    if (side_tests <= 0) return true;
-    for (const Side* other : active) {
-      if (cross_properly(side.from, side.to, other->from, other->to)) return true;
-    }
-    active.push_back(&side);
-  }
-  return false;
-}
-
-std::vector<Triangle> by_earcut(const std::vector<Vector3>& polygon, const Vector3& normal, std::int64_t& side_tests) {
-  const std::vector<std::vector<Point2>> rings{projected(polygon, normal)};
-  if (crosses_itself(rings[0], side_tests)) return fan(polygon.size());
-  const auto indices = mapbox::earcut<std::uint32_t>(rings);
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    Triangle t{indices[i], indices[i + 1], indices[i + 2]};
-    if (dot(cross(polygon[t[1]] - polygon[t[0]], polygon[t[2]] - polygon[t[0]]), normal) < 0) std::swap(t[1], t[2]);
-    triangles.push_back(t);
-  }
-  return triangles.empty() ? fan(polygon.size()) : triangles;
+std::vector<Triangle> by_ears_in_plane(const std::vector<Vector3>& polygon, const Vector3& normal, std::int64_t& ear_tests) {
+  const std::int64_t allowed = std::min(ear_tests, kMaxStepsPerCorner * static_cast<std::int64_t>(polygon.size()));
+  std::int64_t left = allowed;
+  std::vector<Triangle> triangles = clip_ears(projected(polygon, normal), left);
+  ear_tests -= allowed - left;
+  return triangles;
 }
 
 bool touches_itself(std::vector<Vector3> polygon) {
@@ -166,7 +124,7 @@ std::vector<Triangle> triangulate(const std::vector<Vector3>& polygon, std::int6
   if (!(size > 0)) return fan(polygon.size());
   normal = (1 / size) * normal;
   if (polygon.size() <= kMaxCornersForBestEars && !touches_itself(polygon)) return by_best_ears(polygon, normal, ear_tests);
-  return by_earcut(polygon, normal, ear_tests);
+  return by_ears_in_plane(polygon, normal, ear_tests);
 }
 
 }  // namespace orbc::mesh_io
