@@ -21,8 +21,8 @@ struct LitPatches {
 
 /// Finds the light that surfaces give each other.
 /// Makes:   for every patch ∫ radiance·cosθ dω/π, which is irradiance / π, after at most LightOptions::indirect_bounces reflections by
-/// matte surfaces. Source:  Jacobi's iteration of the radiosity equation (Cohen, Wallace, Radiosity and Realistic Image Synthesis, 1993,
-/// §5.3), with rays
+///          matte surfaces.
+/// Source:  Jacobi's iteration of the radiosity equation (Cohen, Wallace, Radiosity and realistic image synthesis, 1993, §5.3), with rays
 ///          instead of form factors. From every gather point `samples` geodesics go out, in the same lattice of directions everywhere, so
 ///          that errors change smoothly along surfaces. Each goes over mirrors and through mirror and glass objects to the surface where it
 ///          ends. The direct light of that surface is gathered at once. What it gets from other surfaces is gathered again in every pass,

@@ -11,10 +11,9 @@ namespace orbc::light {
 /// The irradiance on a surface across the path from an isotropic lamp of power 1.
 /// In:      path length L > 0; its floor geodesic s = L·cosα, with the slope α; the lamp's radius.
 /// Formula: s/(4π·L²·|sinκ s|), which is cosα/(4π·L·|sinκ(L·cosα)|). In E² it is 1/(4πL²).
-/// Why:     The directions at the lamp with slope in dα and azimuth in dφ fill the solid angle dΩ = cosα dα dφ. All geodesics of one
-/// azimuth
-///          lie in a flat vertical strip (floor geodesic × height), where those of dα are L·dα apart at length L. Across the strip, floor
-///          geodesics of dφ are |sinκ(s)|·dφ apart. So the power dΩ/4π crosses the area L·|sinκ(s)|·dα·dφ.
+/// Why:     The directions at the lamp with slope in dα and azimuth in dφ fill the solid angle dΩ = cosα dα dφ. All geodesics of
+///          one azimuth lie in a flat vertical strip (floor geodesic × height), where those of dα are L·dα apart at length L. Across the
+///          strip, floor geodesics of dφ are |sinκ(s)|·dφ apart. So the power dΩ/4π crosses the area L·|sinκ(s)|·dα·dφ.
 /// Clamped: inside the lamp to the value at its radius. Near a focus on S² (s = π, 2π, …), where geodesics meet again, to the value at
 ///          the lamp's radius from the focus: there a lamp has an image of its own size.
 [[nodiscard]] inline double geodesic_falloff(geometry::Space space, double length, double arc, double radius) {
