@@ -63,11 +63,11 @@ std::optional<Guide::Lobe> lobe_of(const LightingContext& lighting, const LampIm
 
 }  // namespace
 
-std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::Interior& room) {
-  const Space space = room.polygon.space;
-  std::vector<bool> has_mirror(room.polygon.walls.size(), false);
+std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::Interior& interior) {
+  const Space space = interior.polygon.space;
+  std::vector<bool> has_mirror(interior.polygon.walls.size(), false);
   bool plain_floor = true, plain_ceiling = true;
-  for (const place::PlacedMirror& m : room.mirrors) {
+  for (const place::PlacedMirror& m : interior.mirrors) {
     if (m.wall >= 0) has_mirror[static_cast<std::size_t>(m.wall)] = true;
     else (m.wall == -1 ? plain_floor : plain_ceiling) = false;
   }
@@ -79,10 +79,10 @@ std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::Interio
     if (intensity > 0) spots.push_back({at, std::max(to.length, lamp.radius), intensity, horizontal});
   };
   if (plain_floor) add({lamp.centre.floor, 0}, true);
-  if (plain_ceiling) add({lamp.centre.floor, room.height}, true);
+  if (plain_ceiling) add({lamp.centre.floor, interior.height}, true);
   for (std::size_t w = 0; w < has_mirror.size(); ++w) {
     if (has_mirror[w]) continue;
-    const geometry::Point image = room::reflection_in_wall(room.polygon, static_cast<int>(w)) * lamp.centre.floor;
+    const geometry::Point image = room::reflection_in_wall(interior.polygon, static_cast<int>(w)) * lamp.centre.floor;
     if (geometry::distance(space, image, lamp.centre.floor) > kMaxWallSpotDistance) continue;
     add({geometry::midpoint(space, image, lamp.centre.floor), lamp.centre.z}, false);
   }

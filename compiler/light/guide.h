@@ -8,7 +8,7 @@
 namespace orbc::light {
 
 /// The hot spots of a lamp: below and above it, and beside it on plain walls.
-[[nodiscard]] std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::Interior& room);
+[[nodiscard]] std::vector<HotSpot> find_hot_spots(const PlacedLamp& lamp, const place::Interior& interior);
 
 /// A density of directions for sampling the light that comes to a matte point from all other surfaces. It mixes the cosine density with
 /// cones towards the hot spots of lamps and of their images in mirrors. Where light really comes from has no influence on it: the mean of

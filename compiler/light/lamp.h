@@ -53,11 +53,11 @@ struct PlacedLamps {
 
 /// Refuses lamps with their centre inside a closed object, which would keep all their light. In: the room without lamp bodies.
 /// Diagnostics: light.lamp-inside-object (names the object).
-[[nodiscard]] Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& lamps, const place::Interior& room);
+[[nodiscard]] Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& lamps, const place::Interior& interior);
 
 /// Adds the bodies of visible lamps to the room, as its last parts: emissive spheres, plates and tubes, which cast no shadow. Points and
 /// spots have no bodies.
-void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place::Interior& room);
+void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place::Interior& interior);
 /// The lamp of the scene (from 0) whose body a part is, or −1.
 [[nodiscard]] int lamp_of_part(const place::PlacedMesh& part);
 

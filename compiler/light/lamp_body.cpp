@@ -104,10 +104,10 @@ int lamp_of_part(const place::PlacedMesh& part) {
   return part.kind == place::PartKind::object && part.wall <= kFirstLampMark ? kFirstLampMark - part.wall : -1;
 }
 
-Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& lamps, const place::Interior& room) {
+Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& lamps, const place::Interior& interior) {
   Diagnostics errors;
   for (std::size_t i = 0; i < lamps.lamps.size(); ++i) {
-    const place::PlacedMesh* around = place::enclosing_object(room, lamps.lamps[i].centre);
+    const place::PlacedMesh* around = place::enclosing_object(interior, lamps.lamps[i].centre);
     if (!around) continue;
     const scene::Lamp& lamp = scene.lamps[i];
     errors.push_back(make_error("light.lamp-inside-object",
@@ -118,25 +118,25 @@ Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& l
   return errors;
 }
 
-void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place::Interior& room) {
-  const Space space = room.polygon.space;
+void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place::Interior& interior) {
+  const Space space = interior.polygon.space;
   for (std::size_t i = 0; i < lamps.lamps.size(); ++i) {
     const scene::Lamp& spec = scene.lamps[i];
     const PlacedLamp& lamp = lamps.lamps[i];
-    if (!spec.visible || spec.kind == LampKind::point || spec.kind == LampKind::spot || room.styles.size() >= 0xffff) continue;
-    place::PlacedMesh mesh = body(space, lamp, spec, room.height);
+    if (!spec.visible || spec.kind == LampKind::point || spec.kind == LampKind::spot || interior.styles.size() >= 0xffff) continue;
+    place::PlacedMesh mesh = body(space, lamp, spec, interior.height);
     mesh.kind = place::PartKind::object;
     mesh.name = fmt::format("lamp {}", i + 1);
     mesh.wall = kFirstLampMark - static_cast<int>(i);
     // A body shows its colour at full brightness. Its true radiance would be white in any picture of the room.
     const double channel = std::max({spec.color.r, spec.color.g, spec.color.b, 1e-9});
-    place::SurfaceStyle look;
-    look.color = look.material.color = (1 / channel) * spec.color;
-    look.material.kind = scene::MaterialKind::emissive;
-    look.material.emission = 1 / std::max(scene.exposure, 1e-9);
-    mesh.style.assign(mesh.triangles.size(), static_cast<std::uint16_t>(room.styles.size()));
-    room.styles.push_back(look);
-    room.parts.push_back(std::move(mesh));
+    place::SurfaceStyle style;
+    style.color = style.material.color = (1 / channel) * spec.color;
+    style.material.kind = scene::MaterialKind::emissive;
+    style.material.emission = 1 / std::max(scene.exposure, 1e-9);
+    mesh.style.assign(mesh.triangles.size(), static_cast<std::uint16_t>(interior.styles.size()));
+    interior.styles.push_back(style);
+    interior.parts.push_back(std::move(mesh));
   }
 }
 

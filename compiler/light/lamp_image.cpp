@@ -46,10 +46,10 @@ struct MirroredSurfaces {
   double max_throughput = 0;  ///< largest channel of any mirror
 };
 
-MirroredSurfaces mirrored_surfaces(const place::Interior& room) {
+MirroredSurfaces mirrored_surfaces(const place::Interior& interior) {
   MirroredSurfaces mirrors;
-  mirrors.walls.assign(room.polygon.walls.size(), false);
-  for (const place::PlacedMirror& m : room.mirrors) {
+  mirrors.walls.assign(interior.polygon.walls.size(), false);
+  for (const place::PlacedMirror& m : interior.mirrors) {
     if (m.wall >= 0) mirrors.walls[static_cast<std::size_t>(m.wall)] = true;
     else (m.wall == -1 ? mirrors.floor : mirrors.ceiling) = true;
     mirrors.max_throughput = std::max({mirrors.max_throughput, m.throughput.r, m.throughput.g, m.throughput.b});
@@ -61,19 +61,19 @@ MirroredSurfaces mirrored_surfaces(const place::Interior& room) {
 using Visitor = std::function<bool(const HorizontalImage&)>;
 
 // Orbifolds: every element of the group once.
-void visit_group(const place::Interior& room, const MirroredSurfaces& mirrors, int bounces, const Visitor& visit) {
+void visit_group(const place::Interior& interior, const MirroredSurfaces& mirrors, int bounces, const Visitor& visit) {
   std::vector<int> wall;
-  for (std::size_t i = 0; i < room.polygon.walls.size(); ++i)
-    if (room.polygon.walls[i].reflects) wall.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < interior.polygon.walls.size(); ++i)
+    if (interior.polygon.walls[i].reflects) wall.push_back(static_cast<int>(i));
   std::vector<Isometry> reflections;
   bool all_mirrors = true;
   for (const int w : wall) {
-    reflections.push_back(room::reflection_in_wall(room.polygon, w));
+    reflections.push_back(room::reflection_in_wall(interior.polygon, w));
     all_mirrors = all_mirrors && mirrors.walls[static_cast<std::size_t>(w)];
   }
-  const bool closed = room.polygon.space == Space::spherical && all_mirrors;  // geodesics go on round the sphere
-  const int half_turn = closed ? notation::longest_length(room.polygon.orbifold).value() : 0;
-  const cover::Automaton automaton(room.polygon.orbifold, std::max(1, bounces));
+  const bool closed = interior.polygon.space == Space::spherical && all_mirrors;  // geodesics go on round the sphere
+  const int half_turn = closed ? notation::longest_length(interior.polygon.orbifold).value() : 0;
+  const cover::Automaton automaton(interior.polygon.orbifold, std::max(1, bounces));
   cover::enumerate(automaton, reflections, bounces, [&](const cover::Element& element, const Isometry& cover_from_room) {
     const int length = static_cast<int>(element.word.size());
     if (length > 0 && !mirrors.walls[static_cast<std::size_t>(wall[element.word.back()])]) return cover::Visit::prune;
@@ -87,17 +87,17 @@ void visit_group(const place::Interior& room, const MirroredSurfaces& mirrors, i
 }
 
 // Other rooms: every word of mirrors without the same letter twice in a row, from `at` on. Makes: false when `visit` has stopped.
-bool visit_words(const place::Interior& room, const MirroredSurfaces& mirrors, int bounces, const HorizontalImage& at,
+bool visit_words(const place::Interior& interior, const MirroredSurfaces& mirrors, int bounces, const HorizontalImage& at,
                  const Visitor& visit) {
   if (!visit(at)) return false;
   if (at.bounces == bounces) return true;
   for (std::size_t w = 0; w < mirrors.walls.size(); ++w) {
     if (!mirrors.walls[w] || (!at.walls.empty() && at.walls.back() == static_cast<std::int16_t>(w))) continue;
     HorizontalImage next = at;
-    next.cover_from_room = geometry::renormalised(next.cover_from_room * room::reflection_in_wall(room.polygon, static_cast<int>(w)));
+    next.cover_from_room = geometry::renormalised(next.cover_from_room * room::reflection_in_wall(interior.polygon, static_cast<int>(w)));
     next.walls.push_back(static_cast<std::int16_t>(w));
     ++next.bounces;
-    if (!visit_words(room, mirrors, bounces, next, visit)) return false;
+    if (!visit_words(interior, mirrors, bounces, next, visit)) return false;
   }
   return true;
 }
@@ -134,7 +134,7 @@ Position image_of(const HorizontalImage& horizontal, const VerticalImage& vertic
 /// A room with all that the images of its lamps depend on.
 struct ImageContext {
   const std::vector<PlacedLamp>& lamps;
-  const place::Interior& room;
+  const place::Interior& interior;
   const ImageOptions& options;
   MirroredSurfaces mirrors;
 };
@@ -145,11 +145,11 @@ double max_throughput(const ImageContext& context, const HorizontalImage& horizo
 
 // Whether some point of the room may get light of `cull_below`. On S² light rises again with distance, and images are few.
 bool may_be_visible(const ImageContext& context, const PlacedLamp& lamp, const HorizontalImage& horizontal, const VerticalImage& vertical) {
-  const Space space = context.room.polygon.space;
+  const Space space = context.interior.polygon.space;
   if (context.options.cull_below <= 0 || space == Space::spherical) return true;
   const Position centre = image_of(horizontal, vertical, lamp.centre);
-  const double arc = std::max(0.0, geometry::distance(space, {}, centre.floor) - context.room.polygon.circumradius);
-  const double rise = std::max({0.0, -centre.z, centre.z - context.room.height});
+  const double arc = std::max(0.0, geometry::distance(space, {}, centre.floor) - context.interior.polygon.circumradius);
+  const double rise = std::max({0.0, -centre.z, centre.z - context.interior.height});
   return max_contribution(space, lamp, max_throughput(context, horizontal, vertical), context.options.exposure, math::hypot(arc, rise),
                           arc) >= context.options.cull_below;
 }
@@ -172,7 +172,7 @@ LampImage lamp_image(const ImageContext& context, int l, const HorizontalImage& 
 
 /// The images over at most `bounces` mirrors; nothing when they are too many.
 std::optional<std::vector<LampImage>> images_up_to(const ImageContext& context, int bounces) {
-  const std::vector<VerticalImage> verticals = vertical_images(context.mirrors, context.room.height, bounces);
+  const std::vector<VerticalImage> verticals = vertical_images(context.mirrors, context.interior.height, bounces);
   std::vector<LampImage> images;
   std::uint64_t visited = 0;
   bool complete = true;
@@ -186,8 +186,8 @@ std::optional<std::vector<LampImage>> images_up_to(const ImageContext& context, 
       }
     return true;
   };
-  if (notation::is_orbifold(context.room.polygon.orbifold)) visit_group(context.room, context.mirrors, bounces, visit);
-  else visit_words(context.room, context.mirrors, bounces, {geometry::identity(context.room.polygon.space), 0, 0, {}, true}, visit);
+  if (notation::is_orbifold(context.interior.polygon.orbifold)) visit_group(context.interior, context.mirrors, bounces, visit);
+  else visit_words(context.interior, context.mirrors, bounces, {geometry::identity(context.interior.polygon.space), 0, 0, {}, true}, visit);
   if (!complete || images.size() > kMaxImages) return std::nullopt;
   return images;
 }
@@ -199,9 +199,9 @@ double max_contribution(Space space, const PlacedLamp& lamp, double throughput, 
          falloff(lamp.falloff, space, std::max(length - lamp.extent, lamp.radius), arc, lamp.radius);
 }
 
-Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::Interior& room,
+Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::Interior& interior,
                                            const ImageOptions& options) {
-  const ImageContext context{lamps, room, options, mirrored_surfaces(room)};
+  const ImageContext context{lamps, interior, options, mirrored_surfaces(interior)};
   if (auto images = images_up_to(context, options.bounces)) return std::move(*images);
   int fits = -1;
   while (fits + 1 < options.bounces && images_up_to(context, fits + 1)) ++fits;

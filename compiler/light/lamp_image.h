@@ -33,7 +33,7 @@ inline constexpr std::uint64_t kMaxVisitedImages = 4'000'000;  ///< images that 
 ///               for every word of mirrors.
 /// Diagnostics:  light.too-many-images; the hint names the largest number of mirrors that is possible.
 /// Not promised: that light arrives over a path. trace::follow decides that, and with which throughput.
-[[nodiscard]] Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::Interior& room,
+[[nodiscard]] Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::Interior& interior,
                                                          const ImageOptions& options = {});
 
 /// Upper bound of the radiance that an image adds to a white surface, white = 1.

@@ -29,11 +29,11 @@ LightCullGrid make_light_cull_grid(const LightingContext& lighting, const Execut
     std::iota(grid.images[0].begin(), grid.images[0].end(), 0u);
     return grid;
   }
-  const place::Interior& room = *lighting.scene.interior;
-  grid.height = room.height;
+  const place::Interior& interior = *lighting.scene.interior;
+  grid.height = interior.height;
   grid.cells_across = kCellsAcross;
   grid.cells_up = kCellsUp;
-  for (const geometry::Point& p : room.polygon.outline)
+  for (const geometry::Point& p : interior.polygon.outline)
     grid.disk_radius = std::max(grid.disk_radius, math::abs(geometry::disk_from_point(space, p)));
   grid.images.resize(static_cast<std::size_t>(kCellsAcross) * kCellsAcross * kCellsUp);
   executor(grid.images.size(), [&](std::size_t cell) {

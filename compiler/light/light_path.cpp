@@ -21,12 +21,12 @@ trace::FollowOptions path_follow_options(const LightingContext& lighting) {
   return follow;
 }
 
-LightPath extend_path(const place::Interior& room, const LightingContext& lighting, LightPath path, const trace::Ray& ray,
+LightPath extend_path(const place::Interior& interior, const LightingContext& lighting, LightPath path, const trace::Ray& ray,
                       surface::Random& random) {
-  return extend_path(room, lighting, std::move(path), trace::follow(lighting.scene, ray, path_follow_options(lighting)), random);
+  return extend_path(interior, lighting, std::move(path), trace::follow(lighting.scene, ray, path_follow_options(lighting)), random);
 }
 
-LightPath extend_path(const place::Interior& room, const LightingContext& lighting, LightPath path, trace::Path followed,
+LightPath extend_path(const place::Interior& interior, const LightingContext& lighting, LightPath path, trace::Path followed,
                       surface::Random& random) {
   const geometry::Space space = lighting.scene.prism.space;
   path.end.reset();
@@ -38,9 +38,9 @@ LightPath extend_path(const place::Interior& room, const LightingContext& lighti
     }
     path.throughput = path.throughput * followed.throughput;
     trace::SurfacePoint point = trace::surface_at(lighting.scene, followed.last_ray, followed.hit);
-    const scene::Material* material = point.style >= 0 ? &room.styles[static_cast<std::size_t>(point.style)].material : nullptr;
+    const scene::Material* material = point.style >= 0 ? &interior.styles[static_cast<std::size_t>(point.style)].material : nullptr;
     if (material && material->kind == scene::MaterialKind::emissive) {
-      path.radiance = path.radiance + material->emission * (path.throughput * surface::hit_albedo(room, point));
+      path.radiance = path.radiance + material->emission * (path.throughput * surface::hit_albedo(interior, point));
       return path;
     }
     const bool mirror = material && material->kind == scene::MaterialKind::mirror;
@@ -50,9 +50,9 @@ LightPath extend_path(const place::Interior& room, const LightingContext& lighti
     }
     trace::Direction onward = surface::reflect(space, point);
     if (mirror) {
-      path.throughput = path.throughput * surface::hit_albedo(room, point);
+      path.throughput = path.throughput * surface::hit_albedo(interior, point);
     } else if (const surface::Refraction glass = surface::refract(space, point, material->index); random.next() >= glass.reflectance) {
-      if (point.front_facing) path.throughput = path.throughput * surface::hit_albedo(room, point);
+      if (point.front_facing) path.throughput = path.throughput * surface::hit_albedo(interior, point);
       point.normal = -point.normal;
       onward = glass.direction;
     }

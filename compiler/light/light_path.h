@@ -24,10 +24,10 @@ struct LightPath {
 /// Extends a path along a ray, over the mirrors of the room and through mirror and glass objects, to the next matte surface.
 /// In:    the room with its textures; the path up to the ray; random numbers that choose between reflection and transmission at glass.
 /// Makes: the path with the radiance of emissive mirrors and surfaces on the way added, and that of the background where it is cut off.
-[[nodiscard]] LightPath extend_path(const place::Interior& room, const LightingContext& lighting, LightPath path, const trace::Ray& ray,
+[[nodiscard]] LightPath extend_path(const place::Interior& interior, const LightingContext& lighting, LightPath path, const trace::Ray& ray,
                                     surface::Random& random);
 /// The same for a ray that was already followed with path_follow_options.
-[[nodiscard]] LightPath extend_path(const place::Interior& room, const LightingContext& lighting, LightPath path, trace::Path followed,
+[[nodiscard]] LightPath extend_path(const place::Interior& interior, const LightingContext& lighting, LightPath path, trace::Path followed,
                                     surface::Random& random);
 
 }  // namespace orbc::light

@@ -114,19 +114,19 @@ Color image_irradiance(const LightingContext& lighting, std::uint32_t number, co
   return (budget.weight / budget.count) * (lamp.power * sum);
 }
 
-Result<LampSet> with_images(const scene::Scene& scene, const place::Interior& room, PlacedLamps placed, const LightOptions& options) {
+Result<LampSet> with_images(const scene::Scene& scene, const place::Interior& interior, PlacedLamps placed, const LightOptions& options) {
   LampSet set{std::move(placed.lamps), {}, std::move(placed.warnings)};
-  for (PlacedLamp& lamp : set.lamps) lamp.hot_spots = find_hot_spots(lamp, room);
-  auto images = lamp_images(set.lamps, room, {options.bounces, scene.exposure, options.cull_below});
+  for (PlacedLamp& lamp : set.lamps) lamp.hot_spots = find_hot_spots(lamp, interior);
+  auto images = lamp_images(set.lamps, interior, {options.bounces, scene.exposure, options.cull_below});
   if (!images) return located(images.error(), scene.bake.mirror_bounces_span);
   set.images = std::move(images).value();
   return set;
 }
 
 /// The room without the bodies of its lamps.
-std::shared_ptr<const place::Interior> make_shadow_casters(const place::Interior& room) {
-  auto casters = std::make_shared<place::Interior>(room);
-  if (!place::has_alpha_mask(room)) casters->textures.clear();
+std::shared_ptr<const place::Interior> make_shadow_casters(const place::Interior& interior) {
+  auto casters = std::make_shared<place::Interior>(interior);
+  if (!place::has_alpha_mask(interior)) casters->textures.clear();
   casters->parts.erase(
       std::remove_if(casters->parts.begin(), casters->parts.end(), [](const place::PlacedMesh& part) { return lamp_of_part(part) >= 0; }),
       casters->parts.end());
@@ -146,14 +146,14 @@ LightOptions light_options(const scene::Scene& scene) {
   return options;
 }
 
-Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::Interior& room, const LightOptions& options) {
-  auto placed = place_lamps(scene, room.polygon);
+Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::Interior& interior, const LightOptions& options) {
+  auto placed = place_lamps(scene, interior.polygon);
   if (!placed) return placed.error();
-  if (auto inside = lamps_inside_objects(scene, *placed, room); !inside.empty()) return inside;
-  return with_images(scene, room, std::move(*placed), options);
+  if (auto inside = lamps_inside_objects(scene, *placed, interior); !inside.empty()) return inside;
+  return with_images(scene, interior, std::move(*placed), options);
 }
 
-LightingContext prepare_light(const scene::Scene& scene, const place::Interior& room, std::shared_ptr<const LampSet> lamps,
+LightingContext prepare_light(const scene::Scene& scene, const place::Interior& interior, std::shared_ptr<const LampSet> lamps,
                               const LightOptions& options, const Executor& executor) {
   LightingContext lighting;
   lighting.lit = !scene.lamps.empty() || options.indirect_bounces > 0;
@@ -165,21 +165,21 @@ LightingContext prepare_light(const scene::Scene& scene, const place::Interior& 
   lighting.ambient = scene.ambient;
   lighting.options = options;
   lighting.lamps = std::move(lamps);
-  lighting.normals.resize(room.parts.size());
-  executor(room.parts.size(), [&](std::size_t i) { lighting.normals[i] = surface::part_normals(room, room.parts[i]); });
-  lighting.shadow_casters = make_shadow_casters(room);
+  lighting.normals.resize(interior.parts.size());
+  executor(interior.parts.size(), [&](std::size_t i) { lighting.normals[i] = surface::part_normals(interior, interior.parts[i]); });
+  lighting.shadow_casters = make_shadow_casters(interior);
   lighting.scene = trace::prepare(*lighting.shadow_casters, executor);
   lighting.cull_grid = make_light_cull_grid(lighting, executor);
   return lighting;
 }
 
-Result<LightingContext> prepare_light(const scene::Scene& scene, const place::Interior& room, const LightOptions& options,
+Result<LightingContext> prepare_light(const scene::Scene& scene, const place::Interior& interior, const LightOptions& options,
                                       const Executor& executor) {
-  auto placed = place_lamps(scene, room.polygon);
+  auto placed = place_lamps(scene, interior.polygon);
   if (!placed) return placed.error();
-  auto lamps = with_images(scene, room, std::move(*placed), options);
+  auto lamps = with_images(scene, interior, std::move(*placed), options);
   if (!lamps) return lamps.error();
-  return prepare_light(scene, room, std::make_shared<const LampSet>(std::move(*lamps)), options, executor);
+  return prepare_light(scene, interior, std::make_shared<const LampSet>(std::move(*lamps)), options, executor);
 }
 
 Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const SampleStratum& stratum) {
@@ -250,11 +250,11 @@ Color outgoing_radiance(const LightingContext& lighting, const scene::Material& 
 
 double white_level(const LightingContext& lighting) { return 1 / std::max(lighting.exposure, 1e-300); }
 
-surface::ShadingPoint shading_point(const LightingContext& lighting, const place::Interior& room, const trace::SurfacePoint& point,
+surface::ShadingPoint shading_point(const LightingContext& lighting, const place::Interior& interior, const trace::SurfacePoint& point,
                                     const trace::Hit& hit) {
   if (hit.kind == trace::HitKind::triangle) {
     const auto part = static_cast<std::size_t>(hit.part);
-    return surface::shading_point(room, room.parts[part], lighting.normals[part], static_cast<std::size_t>(hit.triangle),
+    return surface::shading_point(interior, interior.parts[part], lighting.normals[part], static_cast<std::size_t>(hit.triangle),
                                   {hit.b[0], hit.b[1], hit.b[2]});
   }
   return {point.at, point.normal, point.at, point.wall, false};

@@ -32,7 +32,7 @@ struct LampSet {
 };
 /// Places the lamps of a scene and finds their images. In: the room without lamp bodies; the options that prepare_light gets.
 /// Diagnostics: those of place_lamps, lamps_inside_objects and lamp_images.
-[[nodiscard]] Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::Interior& room, const LightOptions& options);
+[[nodiscard]] Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::Interior& interior, const LightOptions& options);
 
 /// All that is needed to light a point of a room. Made once for a scene, shared by the tracer and the bake. Copies share what is large.
 struct LightingContext {
@@ -41,10 +41,10 @@ struct LightingContext {
   double exposure = 1;
   LightOptions options;
   std::shared_ptr<const LampSet> lamps = std::make_shared<const LampSet>();
-  LightCullGrid cull_grid;                                  ///< which images matter where
-  std::vector<surface::PartNormals> normals;                ///< per part of the room
+  LightCullGrid cull_grid;                                ///< which images matter where
+  std::vector<surface::PartNormals> normals;              ///< per part of the room
   std::shared_ptr<const place::Interior> shadow_casters;  ///< the room without the bodies of its lamps
-  trace::TraceScene scene;                                  ///< of `shadow_casters`
+  trace::TraceScene scene;                                ///< of `shadow_casters`
 };
 
 /// The lamp of an image.
@@ -53,10 +53,11 @@ struct LightingContext {
 }
 
 /// Prepares shadow rays and the normals of all parts. In: the room with lamp bodies (add_lamp_bodies); the scene's lamps.
-[[nodiscard]] LightingContext prepare_light(const scene::Scene& scene, const place::Interior& room, std::shared_ptr<const LampSet> lamps,
-                                            const LightOptions& options = {}, const Executor& executor = serial_executor());
+[[nodiscard]] LightingContext prepare_light(const scene::Scene& scene, const place::Interior& interior,
+                                            std::shared_ptr<const LampSet> lamps, const LightOptions& options = {},
+                                            const Executor& executor = serial_executor());
 /// The same for a scene whose lamps have not been prepared. Diagnostics: those of place_lamps and lamp_images.
-[[nodiscard]] Result<LightingContext> prepare_light(const scene::Scene& scene, const place::Interior& room,
+[[nodiscard]] Result<LightingContext> prepare_light(const scene::Scene& scene, const place::Interior& interior,
                                                     const LightOptions& options = {}, const Executor& executor = serial_executor());
 
 /// Lamp samples are stratified over the samples of a pixel: stratum `index` of `count`. The mean over all strata has full accuracy.
@@ -91,7 +92,7 @@ struct SampleStratum {
 [[nodiscard]] double white_level(const LightingContext& lighting);
 
 /// The shading point that a ray has hit.
-[[nodiscard]] surface::ShadingPoint shading_point(const LightingContext& lighting, const place::Interior& room,
+[[nodiscard]] surface::ShadingPoint shading_point(const LightingContext& lighting, const place::Interior& interior,
                                                   const trace::SurfacePoint& point, const trace::Hit& hit);
 
 /// The radiance that a glossy or metal surface reflects specularly from the lamps towards the eye. The room in metals is not part of it.

@@ -27,7 +27,7 @@ struct PathStart {
   std::array<double, 3> lamp_numbers;
 };
 
-Color trace_indirect_path(const place::Interior& room, const light::LightingContext& lighting, const surface::ShadingPoint& from,
+Color trace_indirect_path(const place::Interior& interior, const light::LightingContext& lighting, const surface::ShadingPoint& from,
                           const PathStart& start, surface::Random& random) {
   surface::ShadingPoint at = from;
   light::LightPath path;
@@ -41,10 +41,10 @@ Color trace_indirect_path(const place::Interior& room, const light::LightingCont
         bounces == 0 ? start.direction : light::sample_direction(light::guide_at(lighting, at), random.next_three());
     if (sample.weight <= 0) break;
     path.throughput = sample.weight * path.throughput;
-    path = light::extend_path(room, lighting, path, light::spawn_ray(lighting, at, sample.direction), random);
+    path = light::extend_path(interior, lighting, path, light::spawn_ray(lighting, at, sample.direction), random);
     if (!path.end) break;
     at = light::shading_point(lighting, *lighting.shadow_casters, path.end->point, path.end->hit);
-    path.throughput = path.throughput * surface::hit_albedo(room, path.end->point);
+    path.throughput = path.throughput * surface::hit_albedo(interior, path.end->point);
     if (max_channel(path.throughput) <= 0) break;
     const Color direct = light::estimate_irradiance(lighting, at, bounces == 0 ? start.lamp_numbers : random.next_three());
     path.radiance = path.radiance + path.throughput * (lighting.ambient + (1 / std::numbers::pi) * direct);
@@ -71,14 +71,14 @@ light::SampleStratum PixelSampler::stratum_of(int sample, int samples) {
   return {(i + slope * j) % side + side * j, samples};
 }
 
-Color indirect_irradiance(const place::Interior& room, const light::LightingContext& lighting, const surface::ShadingPoint& from,
+Color indirect_irradiance(const place::Interior& interior, const light::LightingContext& lighting, const surface::ShadingPoint& from,
                           PixelSampler& sampler, int paths) {
   const light::Guide guide = light::guide_at(lighting, from);
   Color sum;
   for (int k = 0; k < paths; ++k) {
     const std::array<double, 6> u = surface::r6_point(sampler.lattice_index * paths + k, sampler.shift);
     const PathStart start{light::sample_direction(guide, {u[0], u[1], u[2]}), {u[3], u[4], u[5]}};
-    sum = sum + trace_indirect_path(room, lighting, from, start, sampler.random);
+    sum = sum + trace_indirect_path(interior, lighting, from, start, sampler.random);
   }
   return (1.0 / paths) * sum;
 }

@@ -29,7 +29,7 @@ struct PixelSampler {
 ///        there, so nothing counts twice) and ambient light; emissive surfaces add their own. A path ends after
 ///        LightOptions::indirect_bounces surfaces, by Russian roulette, or where mirrors are followed no further, at the background.
 /// Exact: unbiased, but for caustics (light of lamps over mirror, glass and metal objects) and highlights, which paths do not see.
-[[nodiscard]] scene::Color indirect_irradiance(const place::Interior& room, const light::LightingContext& lighting,
+[[nodiscard]] scene::Color indirect_irradiance(const place::Interior& interior, const light::LightingContext& lighting,
                                                const surface::ShadingPoint& from, PixelSampler& sampler, int paths = 1);
 
 /// The noise of a path-traced picture: root mean square of its standard errors over all pixels, in steps of 1/255. 0 without noise.

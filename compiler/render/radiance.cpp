@@ -141,9 +141,9 @@ struct RayShader {
     --metal_depth;
     sampler.stratum = stratum;
     sampler.lattice_index = lattice_index;
-    const Color room = result.radiance + -1.0 * radiance_before;
-    result.radiance =
-        radiance_before + lamps + Color{lamps.r < white.r ? room.r : 0, lamps.g < white.g ? room.g : 0, lamps.b < white.b ? room.b : 0};
+    const Color from_room = result.radiance + -1.0 * radiance_before;
+    result.radiance = radiance_before + lamps +
+                      Color{lamps.r < white.r ? from_room.r : 0, lamps.g < white.g ? from_room.g : 0, lamps.b < white.b ? from_room.b : 0};
     result.white_bound = bound_before + white;
   }
 

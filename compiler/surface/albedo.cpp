@@ -69,10 +69,10 @@ bool has_solid_position(const place::PlacedMesh& part) {
          part.kind == place::PartKind::wall;
 }
 
-std::optional<Vector3> solid_position(const place::Interior& room, const place::PlacedMesh& part, const geometry::Position& at,
+std::optional<Vector3> solid_position(const place::Interior& interior, const place::PlacedMesh& part, const geometry::Position& at,
                                       const Vector3& object_position) {
   if (!has_solid_position(part)) return std::nullopt;
-  return part.pattern_position.empty() ? shell_position(room.polygon.space, at) : object_position;
+  return part.pattern_position.empty() ? shell_position(interior.polygon.space, at) : object_position;
 }
 
 }  // namespace
@@ -106,36 +106,37 @@ Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
   return {z.real(), z.imag(), at.z};
 }
 
-bool varies_in_triangle(const place::Interior& room, const place::PlacedMesh& part, int look) {
-  if (look < 0) return false;
-  const place::SurfaceStyle& l = room.styles[static_cast<std::size_t>(look)];
+bool varies_in_triangle(const place::Interior& interior, const place::PlacedMesh& part, int style) {
+  if (style < 0) return false;
+  const place::SurfaceStyle& l = interior.styles[static_cast<std::size_t>(style)];
   return l.texture >= 0 || (has_solid_position(part) && is_solid(l.material.pattern));
 }
 
-Color albedo(const place::Interior& room, const AlbedoQuery& query) {
-  if (query.look < 0) return query.color;
-  const place::SurfaceStyle& look = room.styles[static_cast<std::size_t>(query.look)];
-  if (look.texture >= 0) return look.color * texel(room.textures[static_cast<std::size_t>(look.texture)], query.uv[0], query.uv[1]);
-  if (!query.solid_position || !is_solid(look.material.pattern)) return query.color;
-  const double t = solid_pattern(look.material.pattern, *query.solid_position, look.material.cell);
-  return (1 - t) * look.material.color + t * look.material.second;
+Color albedo(const place::Interior& interior, const AlbedoQuery& query) {
+  if (query.style < 0) return query.color;
+  const place::SurfaceStyle& style = interior.styles[static_cast<std::size_t>(query.style)];
+  if (style.texture >= 0) return style.color * texel(interior.textures[static_cast<std::size_t>(style.texture)], query.uv[0], query.uv[1]);
+  if (!query.solid_position || !is_solid(style.material.pattern)) return query.color;
+  const double t = solid_pattern(style.material.pattern, *query.solid_position, style.material.cell);
+  return (1 - t) * style.material.color + t * style.material.second;
 }
 
-Color hit_albedo(const place::Interior& room, const trace::SurfacePoint& point) {
+Color hit_albedo(const place::Interior& interior, const trace::SurfacePoint& point) {
   AlbedoQuery query;
-  query.look = point.style;
+  query.style = point.style;
   query.color = point.color;
   query.uv[0] = point.uv[0];
   query.uv[1] = point.uv[1];
   if (point.part >= 0)
-    query.solid_position = solid_position(room, room.parts[static_cast<std::size_t>(point.part)], point.at, point.pattern_position);
-  return albedo(room, query);
+    query.solid_position = solid_position(interior, interior.parts[static_cast<std::size_t>(point.part)], point.at, point.pattern_position);
+  return albedo(interior, query);
 }
 
-Color triangle_albedo(const place::Interior& room, const place::PlacedMesh& part, std::size_t triangle, const std::array<double, 3>& b) {
+Color triangle_albedo(const place::Interior& interior, const place::PlacedMesh& part, std::size_t triangle,
+                      const std::array<double, 3>& b) {
   AlbedoQuery query;
-  query.look = part.style[triangle];
-  query.color = room.styles[part.style[triangle]].color;
+  query.style = part.style[triangle];
+  query.color = interior.styles[part.style[triangle]].color;
   const mesh::Triangle& t = part.triangles[triangle];
   geometry::Ambient sum{0, 0, 0};
   geometry::Vector3 object_position;
@@ -149,8 +150,8 @@ Color triangle_albedo(const place::Interior& room, const place::PlacedMesh& part
   }
   // The uv of a triangle lie in [0, 1]. 1 means the last texel of this repeat, not the first texel of the next one.
   for (double& c : query.uv) c = std::clamp(c, 0.0, 1 - 1e-9);
-  query.solid_position = solid_position(room, part, {geometry::normalised_point(room.polygon.space, sum), z}, object_position);
-  return albedo(room, query);
+  query.solid_position = solid_position(interior, part, {geometry::normalised_point(interior.polygon.space, sum), z}, object_position);
+  return albedo(interior, query);
 }
 
 }  // namespace orbc::surface

@@ -9,24 +9,24 @@ namespace orbc::surface {
 
 /// What the albedo of a surface point depends on.
 struct AlbedoQuery {
-  int look = -1;                                    ///< index into Interior::looks; −1: the albedo is `color`
-  scene::Color color{0.8, 0.8, 0.8};                ///< linear; the flat colour of the look, of checkers that of the cell
+  int style = -1;                                   ///< index into Interior::styles; −1: the albedo is `color`
+  scene::Color color{0.8, 0.8, 0.8};                ///< linear; the flat colour of the style, of checkers that of the cell
   double uv[2] = {0, 0};                            ///< texture coordinates, in repeats
   std::optional<geometry::Vector3> solid_position;  ///< the point in the coordinates of solid patterns; none: the part has no such pattern
 };
 
-/// The albedo of a surface point: its flat colour, its texel (nearest) times the colour of its look, or its solid pattern.
+/// The albedo of a surface point: its flat colour, its texel (nearest) times the colour of its style, or its solid pattern.
 /// Makes: linear colour. The tracer and the bake both call this function.
-[[nodiscard]] scene::Color albedo(const place::Interior& room, const AlbedoQuery& query);
+[[nodiscard]] scene::Color albedo(const place::Interior& interior, const AlbedoQuery& query);
 /// The albedo where a ray has ended.
-[[nodiscard]] scene::Color hit_albedo(const place::Interior& room, const trace::SurfacePoint& point);
+[[nodiscard]] scene::Color hit_albedo(const place::Interior& interior, const trace::SurfacePoint& point);
 /// The albedo at a point of a triangle. In: affine barycentric coordinates, in the order of the triangle's corners; uv in [0, 1]².
-[[nodiscard]] scene::Color triangle_albedo(const place::Interior& room, const place::PlacedMesh& part, std::size_t triangle,
+[[nodiscard]] scene::Color triangle_albedo(const place::Interior& interior, const place::PlacedMesh& part, std::size_t triangle,
                                            const std::array<double, 3>& b);
 
-/// Whether the albedo changes inside triangles of a look on this part: by a texture, or by a solid pattern if the part can have one.
-/// In: index into Interior::looks; −1: none.
-[[nodiscard]] bool varies_in_triangle(const place::Interior& room, const place::PlacedMesh& part, int look);
+/// Whether the albedo changes inside triangles of a style on this part: by a texture, or by a solid pattern if the part can have one.
+/// In: index into Interior::styles; −1: none.
+[[nodiscard]] bool varies_in_triangle(const place::Interior& interior, const place::PlacedMesh& part, int style);
 
 /// A point of floor, ceiling or a wall in the coordinates of solid patterns: the disk chart scaled to true size at its centre (E²: the
 /// plane itself), and the height. They depend on the point alone and on no triangle.

@@ -118,43 +118,43 @@ PartNormals smooth_normals(Space space, const PlacedMesh& mesh, double cos_creas
 
 // Moves a point that lies on a border of the room inside. Frames end on walls, and a ray that starts beyond a mirror by a rounding error
 // would be reflected there at once.
-geometry::Position move_inside(const place::Interior& room, geometry::Position at) {
-  const double k = geometry::curvature(room.polygon.space);
-  for (const room::Wall& wall : room.polygon.walls)
+geometry::Position move_inside(const place::Interior& interior, geometry::Position at) {
+  const double k = geometry::curvature(interior.polygon.space);
+  for (const room::Wall& wall : interior.polygon.walls)
     if (const double depth = geometry::value_at(wall.line, at.floor); depth < trace::kRayEpsilon)
       at.floor = geometry::normalised_point(
-          room.polygon.space,
+          interior.polygon.space,
           geometry::Ambient(at.floor) + (trace::kRayEpsilon - depth) * Ambient{k * wall.line.w, wall.line.x, wall.line.y});
-  at.z = std::clamp(at.z, trace::kRayEpsilon, room.height - trace::kRayEpsilon);
+  at.z = std::clamp(at.z, trace::kRayEpsilon, interior.height - trace::kRayEpsilon);
   return at;
 }
 
 }  // namespace
 
-PartNormals part_normals(const place::Interior& room, const PlacedMesh& part, double crease) {
-  const Space space = room.polygon.space;
+PartNormals part_normals(const place::Interior& interior, const PlacedMesh& part, double crease) {
+  const Space space = interior.polygon.space;
   if (part.kind == PartKind::object || part.kind == PartKind::frame) return smooth_normals(space, part, math::cos(crease));
   PartNormals result;
   trace::Direction normal{{0, 0, 0}, part.kind == PartKind::ceiling ? -1.0 : 1.0};
-  if (part.kind == PartKind::wall) normal = trace::normal_of_wall(space, room.polygon.walls[static_cast<std::size_t>(part.wall)]);
+  if (part.kind == PartKind::wall) normal = trace::normal_of_wall(space, interior.polygon.walls[static_cast<std::size_t>(part.wall)]);
   for (std::uint32_t v = 0; v < part.floor.size(); ++v) result.vertices.push_back({v, normal});
   result.corners.assign(part.triangles.begin(), part.triangles.end());
   return result;
 }
 
-ShadingPoint shading_point(const place::Interior& room, const PlacedMesh& part, const ShadingVertex& vertex) {
+ShadingPoint shading_point(const place::Interior& interior, const PlacedMesh& part, const ShadingVertex& vertex) {
   ShadingPoint point;
   point.at = point.ray_origin = {part.floor[vertex.vertex], part.z[vertex.vertex]};
   point.normal = point.geometric_normal = vertex.normal;
   point.wall = part.kind == PartKind::wall ? part.wall : -1;
   point.on_triangle = part.kind == PartKind::object || part.kind == PartKind::frame;
-  if (point.on_triangle) point.ray_origin = move_inside(room, point.ray_origin);
+  if (point.on_triangle) point.ray_origin = move_inside(interior, point.ray_origin);
   return point;
 }
 
-ShadingPoint shading_point(const place::Interior& room, const PlacedMesh& part, const PartNormals& normals, std::size_t triangle,
+ShadingPoint shading_point(const place::Interior& interior, const PlacedMesh& part, const PartNormals& normals, std::size_t triangle,
                            const std::array<double, 3>& b) {
-  const Space space = room.polygon.space;
+  const Space space = interior.polygon.space;
   const mesh::Triangle& t = part.triangles[triangle];
   ShadingPoint point;
   const Ambient sum = b[0] * part.floor[t[0]] + b[1] * part.floor[t[1]] + b[2] * part.floor[t[2]];
@@ -187,7 +187,7 @@ ShadingPoint shading_point(const place::Interior& room, const PlacedMesh& part, 
     const double below = std::min(0.0, dot(from, n[k]));
     lift = lift - (b[k] * below) * n[k];
   }
-  point.ray_origin = move_inside(room, exponential(space, point.at, frame, lift));
+  point.ray_origin = move_inside(interior, exponential(space, point.at, frame, lift));
   return point;
 }
 

@@ -24,7 +24,7 @@ struct PartNormals {
 /// In:    crease angle in radians. Triangles without area have no influence.
 /// Makes: vertices doubled at seams of uv have equal normals. Floor, ceiling and walls have their exact normals.
 /// Source: weights by angle, Thürmer and Wüthrich, Computing vertex normals from polygonal facets (1998).
-[[nodiscard]] PartNormals part_normals(const place::Interior& room, const place::PlacedMesh& part, double crease = 0.7);
+[[nodiscard]] PartNormals part_normals(const place::Interior& interior, const place::PlacedMesh& part, double crease = 0.7);
 
 /// Light at the border of a triangle is computed this far inside of it, as a share of its size. On the border itself another surface may
 /// begin, and rounding would decide whether that surface casts a shadow.
@@ -50,9 +50,9 @@ struct ShadingPoint {
 /// The shading point at affine barycentric coordinates of a triangle.
 /// Source: `ray_origin` by Hanika, Hacking the shadow terminator, Ray Tracing Gems II (2021), ch. 4: the point is projected onto the
 ///         tangent planes of the corners, and the projections are interpolated.
-[[nodiscard]] ShadingPoint shading_point(const place::Interior& room, const place::PlacedMesh& part, const PartNormals& normals,
+[[nodiscard]] ShadingPoint shading_point(const place::Interior& interior, const place::PlacedMesh& part, const PartNormals& normals,
                                          std::size_t triangle, const std::array<double, 3>& b);
 /// The shading point at a vertex with one of its normals.
-[[nodiscard]] ShadingPoint shading_point(const place::Interior& room, const place::PlacedMesh& part, const ShadingVertex& vertex);
+[[nodiscard]] ShadingPoint shading_point(const place::Interior& interior, const place::PlacedMesh& part, const ShadingVertex& vertex);
 
 }  // namespace orbc::surface
