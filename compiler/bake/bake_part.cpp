@@ -49,9 +49,9 @@ std::vector<std::uint32_t> images_near_vertices(const BakePart& part, std::size_
 BakePoint make_bake_point(const BakePart& part, std::size_t triangle, const std::array<double, 3>& b, double reach) {
   BakePoint made{surface::shading_point(part.room, part.mesh, part.normals, triangle, b), {}};
   if (!part.base) return made;
-  const light::SurfaceProjection foot = light::project_to_surface(part.lighting, made.point, reach);
-  made.point = foot.point;
-  if (const PatchUv on = part.base->locator.find_for_lod(foot.hit, part.mesh.style[triangle]); on.patch >= 0)
+  const light::SurfaceProjection projected = light::project_to_surface(part.lighting, made.point, reach);
+  made.point = projected.point;
+  if (const PatchUv on = part.base->locator.find_for_lod(projected.hit, part.mesh.style[triangle]); on.patch >= 0)
     made.known_irradiance = interpolate(part.base->direct[static_cast<std::size_t>(on.patch)], on.u, on.v);
   return made;
 }

@@ -29,18 +29,18 @@ std::vector<std::array<float, 2>> uv_of(const std::vector<TexelPatch>& patches, 
 }
 
 Diagnostic too_large(const std::vector<PartToPack>& parts, int max_side) {
-  std::size_t worst = 0, most = 0;
+  std::size_t worst = 0, max_texels = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::size_t texels = parts[p].texels ? parts[p].texels->rgba.size() : 0;
-    if (texels <= most) continue;
-    most = texels;
+    if (texels <= max_texels) continue;
+    max_texels = texels;
     worst = p;
   }
   return make_error(
       "light.atlas-too-large", fmt::format("the baked light of this scene does not fit into a picture of {0}×{0} pixels", max_side),
       fmt::format(
-          "most of it, {} texels, is on \"{}\": a simpler mesh there, larger lamps with softer shadows, or --quality draft need less", most,
-          *parts[worst].name));
+          "most of it, {} texels, is on \"{}\": a simpler mesh there, larger lamps with softer shadows, or --quality draft need less",
+          max_texels, *parts[worst].name));
 }
 
 /// The texels of all patches, in the order of the parts.

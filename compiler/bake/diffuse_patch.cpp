@@ -129,7 +129,7 @@ IrradianceGrid bake_direct(const BakePart& part, const VertexLight& vertices, co
   DirectSampler sampler{part, vertices, patch, style_of(part, patch)};
   const std::vector<GridSample> coarse = sample_coarse_grid(patch, levels, sampler);
   AdaptiveGrid grid = refine_grid(patch, levels, coarse, {kMaxDiffuseStep, part.options.tolerance}, sampler);
-  // Up to the line where a thing stands on the floor, light is interpolated from in front of it, not from the dark below it.
+  // In front of an object on the floor, light is interpolated from the open floor alone, and not from the dark floor below the object.
   const GridStep step = grid.sampled;
   grid = inpaint_excluded(std::move(grid), patch, step);
   IrradianceGrid irradiance = downsample(grid, patch);

@@ -10,7 +10,7 @@
 namespace orbc::bake {
 namespace {
 
-constexpr double kMaxVertexInset = 0.25;  // of the spacing of gather points, and of the way to the neighbouring vertices
+constexpr double kMaxVertexInset = 0.25;  // of the spacing of gather points, and of the distance to the mean of the neighbouring vertices
 constexpr int kMaxPointsPerSide = 129;    // of a patch
 
 /// A part whose gather points are made.
@@ -58,8 +58,9 @@ struct InsetVertex {
   double distance = 0;  ///< by which it was moved
 };
 
-/// Moves a vertex along the tangent plane towards the mean of its neighbours. Where an object stands on the floor, all that lies below is
-/// one point, and shadows begin just there; a little further in they do not. In the middle of a smooth surface a vertex stays where it is.
+/// Moves a vertex along the tangent plane towards the mean of its neighbours. Shadows begin where an object touches the floor, so a vertex
+/// there would gather almost nothing; a little further inside of the surface it gathers what is typical for the surface. In the middle of
+/// a smooth surface a vertex stays where it is.
 InsetVertex inset_vertex(const NetPart& part, surface::ShadingPoint point, const NeighbourMean& mean) {
   if (mean.count == 0) return {point, 0};
   const geometry::Space space = part.surfaces.room.polygon.space;
@@ -75,8 +76,8 @@ InsetVertex inset_vertex(const NetPart& part, surface::ShadingPoint point, const
 /// In: how far from the surface the point of a level of detail may lie.
 GatherPoint make_gather_point(const NetPart& part, const surface::ShadingPoint& point, double reach, std::uint16_t look) {
   if (!part.is_lod) return {point, {}};
-  const light::SurfaceProjection foot = light::project_to_surface(part.surfaces.lighting, point, reach);
-  return {foot.point, part.locator.find_for_lod(foot.hit, look)};
+  const light::SurfaceProjection projected = light::project_to_surface(part.surfaces.lighting, point, reach);
+  return {projected.point, part.locator.find_for_lod(projected.hit, look)};
 }
 
 std::vector<GatherPoint> vertex_points(const NetPart& part) {
@@ -94,8 +95,8 @@ std::vector<GatherPoint> vertex_points(const NetPart& part) {
     // A vertex of a level of detail that is a vertex of the part, too, has the light of that vertex.
     const surface::ShadingPoint corner =
         surface::shading_point(part.surfaces.room, part.mesh, part.normals, triangle, surface::inset_corner(k));
-    const light::SurfaceProjection foot = light::project_to_surface(part.surfaces.lighting, corner, light::kVertexTolerance);
-    if (const PatchUv on = part.locator.find_for_lod(foot.hit, look); on.patch >= 0) points.back().base = on;
+    const light::SurfaceProjection projected = light::project_to_surface(part.surfaces.lighting, corner, light::kVertexTolerance);
+    if (const PatchUv on = part.locator.find_for_lod(projected.hit, look); on.patch >= 0) points.back().base = on;
   }
   return points;
 }

@@ -137,15 +137,15 @@ PatchLocator::CellGrid PatchLocator::make_cell_grid(const PlacedMesh& part) cons
       for (std::size_t k = 0; k < 3; ++k)
         bulge = std::max(bulge, math::hypot(q[(k + 1) % 3][0] - q[k][0], q[(k + 1) % 3][1] - q[k][1]) / 2);
     }
-    for (const double turn : {0.0, -2 * std::numbers::pi, 2 * std::numbers::pi}) {
-      if (turn != 0 && !around) continue;
+    for (const double period : {0.0, -2 * std::numbers::pi, 2 * std::numbers::pi}) {
+      if (period != 0 && !around) continue;
       int from[2], to[2];
       for (std::size_t c = 0; c < 2; ++c) {
-        const double a = std::min({q[0][c], q[1][c], q[2][c]}) - bulge + (c == 0 ? turn : 0),
-                     b = std::max({q[0][c], q[1][c], q[2][c]}) + bulge + (c == 0 ? turn : 0);
+        const double a = std::min({q[0][c], q[1][c], q[2][c]}) - bulge + (c == 0 ? period : 0),
+                     b = std::max({q[0][c], q[1][c], q[2][c]}) + bulge + (c == 0 ? period : 0);
         from[c] = std::max(0, cell_of(grid, static_cast<int>(c), a, -0.01));
         to[c] = cell_of(grid, static_cast<int>(c), b, 0.01);
-        if (turn != 0 && c == 0 && (b < grid.low[0] || a > high[0])) to[0] = -1;
+        if (period != 0 && c == 0 && (b < grid.low[0] || a > high[0])) to[0] = -1;
       }
       for (int y = from[1]; y <= to[1]; ++y)
         for (int x = from[0]; x <= to[0]; ++x) grid.triangles[static_cast<std::size_t>(y * grid.cells + x)].push_back(t);

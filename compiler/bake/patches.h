@@ -35,7 +35,7 @@ struct BarycentricPoint {
 };
 /// The point (u, v) of a patch.
 [[nodiscard]] BarycentricPoint barycentric_point(const TexelPatch& patch, double u, double v);
-/// The point (u, v) of a patch, moved towards its middle by `share` of the way.
+/// The point (u, v) of a patch, moved towards its middle by the fraction `share` of its distance.
 [[nodiscard]] inline BarycentricPoint inset_point(const TexelPatch& patch, double u, double v, double share) {
   const double middle = patch.second < 0 ? 1.0 / 3 : 0.5;
   return barycentric_point(patch, u + share * (middle - u), v + share * (middle - v));

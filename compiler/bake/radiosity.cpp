@@ -17,7 +17,7 @@ namespace {
 
 using scene::Color;
 
-constexpr int kMinLinkInterval = 4;  // every so many directions one is a link: light between surfaces is smoother than that of lamps
+constexpr int kMinLinkInterval = 4;                      // directions per link; light between surfaces is smoother than that of lamps
 constexpr std::size_t kMaxLinks = std::size_t{1} << 24;  // 400 MB; where there would be more, the interval grows
 constexpr int kRaysPerBatch = 512;                       // followed together
 constexpr int kMaxRings = 256;                           // of points inside closed things that take on light from around

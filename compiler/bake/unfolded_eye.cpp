@@ -11,9 +11,9 @@ using geometry::Position;
 using trace::Direction;
 
 UnfoldedEye unfold_eye(const cover::Copy& copy, const place::Camera& eye) {
-  const geometry::Point foot = eye.room_from_eye * geometry::Point();
+  const geometry::Point floor = eye.room_from_eye * geometry::Point();
   return {eye.room_from_eye.space,
-          {geometry::inverse(copy.cover_from_room) * foot, copy.storey.sign * (eye.z - copy.storey.offset)},
+          {geometry::inverse(copy.cover_from_room) * floor, copy.storey.sign * (eye.z - copy.storey.offset)},
           copy.sheet};
 }
 
@@ -27,8 +27,8 @@ double max_pixels_per_unit(const UnfoldedEye& eye, const light::Connection& sigh
 double pixel_footprint(const UnfoldedEye& eye, const light::Connection& sight, const Position& at, const Direction& side,
                        double per_radian) {
   const double k = geometry::curvature(eye.space);
-  const Direction foot{at.floor, 0};
-  const Direction tangent = side + -k * trace::inner(eye.space, side, foot) * foot;
+  const Direction normal{at.floor, 0};
+  const Direction tangent = side + -k * trace::inner(eye.space, side, normal) * normal;
   const double size = std::sqrt(trace::inner(eye.space, tangent, tangent));
   if (size < 1e-12) return 0;
   const Direction along = (1 / size) * tangent, level{sight.direction.floor, 0}, flat{along.floor, 0};
