@@ -24,19 +24,20 @@ inline scene::Scene lit_scene(const std::string& orbifold, scene::LampKind kind,
 }
 
 /// A room with its light.
-struct Lit {
+struct LitRoom {
   scene::Scene scene;
-  place::Interior room;
+  place::Interior interior;
   light::LightingContext lighting;
 };
 
-/// In: the most mirrors on a path from a lamp. No image of a lamp is left out.
-inline Lit lit(scene::Scene scene, int bounces) {
-  Lit result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().interior, {}};
+/// In: the most mirrors on a path from a lamp, and the most matte surfaces on a path of indirect light. No image of a lamp is left out.
+inline LitRoom light_room(const scene::Scene& scene, int bounces, int indirect_bounces = 0) {
+  LitRoom result{scene, place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value()).value().interior, {}};
   light::LightOptions options;
   options.bounces = bounces;
+  options.indirect_bounces = indirect_bounces;
   options.cull_below = 0;
-  result.lighting = light::prepare_light(result.scene, result.room, options).value();
+  result.lighting = light::prepare_light(result.scene, result.interior, options).value();
   return result;
 }
 

@@ -5,42 +5,25 @@
 
 #include "compiler/light/connection.h"
 #include "compiler/light/guide.h"
-#include "compiler/notation/parse.h"
-#include "compiler/place/furnish.h"
 #include "compiler/place/locate.h"
-#include "compiler/room/realise.h"
 #include "compiler/room/room.h"
-#include "compiler/scene/defaults.h"
 #include "compiler/surface/sampling.h"
 #include "compiler/trace/analytic.h"
+#include "tests/support/lit_room.h"
 
 using namespace orbc;
 using geometry::Space;
+using test::LitRoom;
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-struct Lit {
-  place::Interior room;
-  light::LightingContext lighting;
-};
-
-Lit lit(const char* notation, double height, bool mirrors, scene::LampKind kind = scene::LampKind::point) {
-  scene::Scene s = scene::default_scene(notation::parse(notation).value());
-  s.room.height = height;
-  for (scene::Wall& wall : s.room.walls)
-    if (!mirrors) wall.mirrors.clear();
-  scene::Lamp lamp;
-  lamp.kind = kind;
-  lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
-  lamp.place.z = 0.6 * height;
-  s.lamps = {lamp};
-  Lit l{place::furnish(s, room::realise(s.orbifold, s.room.shape).value()).value().interior, {}};
-  light::LightOptions options;
-  options.bounces = 0, options.indirect_bounces = 4, options.cull_below = 0;
-  l.lighting = light::prepare_light(s, l.room, options).value();
-  return l;
+LitRoom lit(const char* notation, double height, bool mirrors, scene::LampKind kind = scene::LampKind::point) {
+  scene::Scene scene = test::lit_scene(notation, kind, mirrors);
+  scene.room.height = height;
+  scene.lamps.front().place.z = 0.6 * height;
+  return test::light_room(scene, 0, 4);
 }
 
 }  // namespace
@@ -48,11 +31,12 @@ Lit lit(const char* notation, double height, bool mirrors, scene::LampKind kind 
 TEST_CASE("guided directions weigh the hemisphere as the cosine does", "[light]") {
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const bool mirrors : {false, true}) {
-      const Lit l = lit(notation, 0.8, mirrors);
+      const LitRoom l = lit(notation, 0.8, mirrors);
       surface::Random random(11);
       for (int place = 0; place < 6; ++place) {
-        const double phi = 2 * kPi * random.next(), r = place::distance_to_boundary(l.room.polygon, phi) * random.next();
-        const geometry::Point at = geometry::point_along(l.room.polygon.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
+        const double phi = 2 * kPi * random.next(), r = place::distance_to_boundary(l.interior.polygon, phi) * random.next();
+        const geometry::Point at =
+            geometry::point_along(l.interior.polygon.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
         const surface::ShadingPoint point{{at, 0}, {{0, 0, 0}, 1}, {at, 0}, -1, false};
         const light::Guide guide = light::guide_at(l.lighting, point);
         double ones = 0, heights = 0, squares = 0;
@@ -71,9 +55,9 @@ TEST_CASE("guided directions weigh the hemisphere as the cosine does", "[light]"
 TEST_CASE("a lamp seen from where it shines: both ways of counting its light agree", "[light]") {
   // Power per area by the falloff, times area, against the share of directions that lead there: in all three spaces, from the lamp's side.
   for (const char* notation : {"*222", "*2222", "*22222"}) {
-    const Lit l = lit(notation, 0.8, false);
+    const LitRoom l = lit(notation, 0.8, false);
     const geometry::Position lamp = l.lighting.lamps->lamps[0].centre;
-    const Space space = l.room.polygon.space;
+    const Space space = l.interior.polygon.space;
     surface::Random random(5);
     constexpr int kCount = 400000;
     double by_directions = 0;
@@ -105,8 +89,8 @@ TEST_CASE("the light of a lamp, asked at random places of a closed room, is its 
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const scene::LampKind kind :
          {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::disk, scene::LampKind::rectangle, scene::LampKind::spot}) {
-      const Lit l = lit(notation, 1, false, kind);
-      const room::Room& room = l.room.polygon;
+      const LitRoom l = lit(notation, 1, false, kind);
+      const room::Room& room = l.interior.polygon;
       surface::Random random(17);
       double sum = 0, squares = 0;
       const auto add = [&](const surface::ShadingPoint& point, double area) {
@@ -119,13 +103,13 @@ TEST_CASE("the light of a lamp, asked at random places of a closed room, is its 
         const geometry::Point at = geometry::point_along(room.space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
         const double area = geometry::sin_k(room.space, r) * reach * 2 * kPi / kCount;
         for (const double up : {1.0, -1.0}) {
-          const double z = up > 0 ? 0 : l.room.height;
+          const double z = up > 0 ? 0 : l.interior.height;
           add({{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false}, area);
         }
         for (int w = 0; w < static_cast<int>(room.walls.size()); ++w) {
           const room::Wall& wall = room.walls[static_cast<std::size_t>(w)];
-          const geometry::Position on{room::point_on_wall(room, w, wall.length * random.next()), l.room.height * random.next()};
-          add({on, trace::normal_of_wall(room.space, wall), on, w, false}, wall.length * l.room.height / kCount);
+          const geometry::Position on{room::point_on_wall(room, w, wall.length * random.next()), l.interior.height * random.next()};
+          add({on, trace::normal_of_wall(room.space, wall), on, w, false}, wall.length * l.interior.height / kCount);
         }
       }
       const double error = std::sqrt(squares);
@@ -139,8 +123,8 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
   // Two patches, each a third of the floor and of the ceiling: the share of the light that leaves one and meets the other, times its area.
   for (const char* notation : {"*222", "*2222", "*22222"})
     for (const bool mirrors : {false, true}) {
-      const Lit l = lit(notation, 0.5, mirrors);
-      const Space space = l.room.polygon.space;
+      const LitRoom l = lit(notation, 0.5, mirrors);
+      const Space space = l.interior.polygon.space;
       surface::Random random(8);
       const auto in_floor_patch = [&](const geometry::Point& p) { return geometry::distance(space, p, {}) < 0.3; };
       const auto in_ceiling_patch = [&](const geometry::Point& p) { return p.x / p.w > 0.05; };
@@ -148,11 +132,12 @@ TEST_CASE("light goes both ways alike: what a passes on to b, b passes on to a",
       constexpr int kCount = 120000;
       for (const bool from_floor : {true, false}) {
         for (int i = 0; i < kCount; ++i) {
-          const double phi = 2 * kPi * random.next(), reach = place::distance_to_boundary(l.room.polygon, phi), r = reach * random.next();
+          const double phi = 2 * kPi * random.next(), reach = place::distance_to_boundary(l.interior.polygon, phi),
+                       r = reach * random.next();
           const geometry::Point at = geometry::point_along(space, {}, geometry::Tangent(0, std::cos(phi), std::sin(phi)), r);
           if (!(from_floor ? in_floor_patch(at) : in_ceiling_patch(at))) continue;
           const double area = geometry::sin_k(space, r) * reach * 2 * kPi / kCount, up = from_floor ? 1 : -1;
-          const double z = from_floor ? 0 : l.room.height;
+          const double z = from_floor ? 0 : l.interior.height;
           const surface::ShadingPoint point{{at, z}, {{0, 0, 0}, up}, {at, z}, -1, false};
           const light::DirectionSample chosen = light::sample_direction(light::guide_at(l.lighting, point), random.next_three());
           if (chosen.weight <= 0) continue;

@@ -9,9 +9,9 @@
 #include "tests/support/lit_room.h"
 
 using namespace orbc;
-using test::Lit;
-using test::lit;
+using test::light_room;
 using test::lit_scene;
+using test::LitRoom;
 
 TEST_CASE("patterns need a bake even without lamps, plain colours need none", "[bake]") {
   scene::Scene scene = scene::default_scene(notation::parse("*222").value());
@@ -27,17 +27,17 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   scene.objects[0].shape = scene::SphereSpec{0.1};
   scene.objects[0].place.floor = scene::AtPolar{0.25, Angle::from_degrees(200)};
   scene.ambient = {0.2, 0.2, 0.2};
-  const Lit l = lit(scene, 1);
+  const LitRoom l = light_room(scene, 1);
   bake::BakeOptions options;
   options.min_density = 12, options.max_density = 48;
-  const bake::DiffuseBake baked = bake::bake_diffuse(l.room, l.lighting, options, serial_executor()).value();
+  const bake::DiffuseBake baked = bake::bake_diffuse(l.interior, l.lighting, options, serial_executor()).value();
   const Executor backwards = [](std::size_t count, const std::function<void(std::size_t)>& task) {
     for (std::size_t i = count; i-- > 0;) task(i);
   };
-  CHECK(bake::bake_diffuse(l.room, l.lighting, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
+  CHECK(bake::bake_diffuse(l.interior, l.lighting, options, backwards)->atlas.image.rgba == baked.atlas.image.rgba);
   CHECK(baked.atlas.image16.rgb.empty());
   options.with_image16 = true;
-  const bake::Atlas deep = bake::bake_diffuse(l.room, l.lighting, options, serial_executor())->atlas;
+  const bake::Atlas deep = bake::bake_diffuse(l.interior, l.lighting, options, serial_executor())->atlas;
   REQUIRE(deep.image.rgba == baked.atlas.image.rgba);
   REQUIRE(deep.image16.rgb.size() == deep.image.rgba.size() / 4 * 3);
   std::size_t finer = 0;
@@ -50,13 +50,13 @@ TEST_CASE("the bake holds the light of every point, and the same bytes for any e
   CHECK(finer > deep.image16.rgb.size() / 2);
   int far_off = 0, asked = 0;
   const image::Image& image = baked.atlas.image;
-  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
-    const place::PlacedMesh& part = l.room.parts[p];
+  for (std::size_t p = 0; p < l.interior.parts.size(); ++p) {
+    const place::PlacedMesh& part = l.interior.parts[p];
     REQUIRE(baked.atlas.room.parts[p].triangles.size() == part.triangles.size());
     for (std::size_t t = 0; t < part.triangles.size(); t += 7) {
       const std::array<double, 3> b{0.3, 0.5, 0.2};
-      const scene::Color e = light::irradiance(l.lighting, surface::shading_point(l.room, part, l.lighting.normals[p], t, b));
-      const place::SurfaceStyle& look = l.room.styles[part.style[t]];
+      const scene::Color e = light::irradiance(l.lighting, surface::shading_point(l.interior, part, l.lighting.normals[p], t, b));
+      const place::SurfaceStyle& look = l.interior.styles[part.style[t]];
       const double expected = 255 * image::encode_srgb(light::outgoing_radiance(l.lighting, look.material, look.color, e).g);
       double u = 0, v = 0;
       for (int k = 0; k < 3; ++k) {
@@ -83,13 +83,13 @@ TEST_CASE("no lookup of baked light leaves its patch: the nearest texel, or the 
   scene::Scene scene = lit_scene("*2222", scene::LampKind::sphere, true);
   scene.objects.resize(1);
   scene.objects[0].shape = scene::SphereSpec{0.1};
-  const Lit l = lit(scene, 0);
+  const LitRoom l = light_room(scene, 0);
   bake::BakeOptions options;
   options.min_density = 6, options.max_density = 24;
-  const bake::DiffuseBake baked = bake::bake_diffuse(l.room, l.lighting, options, serial_executor()).value();
+  const bake::DiffuseBake baked = bake::bake_diffuse(l.interior, l.lighting, options, serial_executor()).value();
   const image::Image& image = baked.atlas.image;
-  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
-    std::vector<const bake::TexelRect*> rect(l.room.parts[p].triangles.size(), nullptr);
+  for (std::size_t p = 0; p < l.interior.parts.size(); ++p) {
+    std::vector<const bake::TexelRect*> rect(l.interior.parts[p].triangles.size(), nullptr);
     for (std::size_t i = 0; i < baked.patches[p].size(); ++i) {
       rect[baked.patches[p][i].first] = &baked.rects[p][i];
       if (baked.patches[p][i].second >= 0) rect[static_cast<std::size_t>(baked.patches[p][i].second)] = &baked.rects[p][i];

@@ -5,55 +5,34 @@
 #include "compiler/bake/diffuse.h"
 #include "compiler/geometry/point.h"
 #include "compiler/light/connection.h"
-#include "compiler/mesh_io/load.h"
-#include "compiler/notation/parse.h"
-#include "compiler/place/furnish.h"
-#include "compiler/room/realise.h"
-#include "compiler/scene/defaults.h"
 #include "compiler/surface/tangent_frame.h"
+#include "tests/support/lit_room.h"
 
 using namespace orbc;
+using test::LitRoom;
 
 namespace {
 
-struct LitStandIn {
-  scene::Scene scene;
-  place::Interior room;
-  light::LightingContext lighting;
-};
-
-LitStandIn lit(const std::string& orbifold, int passes = 0) {
-  scene::Scene scene = scene::default_scene(notation::parse(orbifold).value());
+LitRoom lit(const std::string& orbifold, int indirect_bounces = 0) {
+  scene::Scene scene = test::lit_scene(orbifold, scene::Lamp{}.kind, true);
   scene.objects.resize(1);
   scene.objects[0].shape = scene::CylinderSpec{0.05, 0.2};
   scene.objects[0].place.floor = scene::AtPolar{0.1, Angle::from_degrees(200)};
   for (scene::Wall& wall : scene.room.walls) wall.mirrors.front().frame = scene::Frame{0.035, {}};
-  scene::Lamp lamp;
-  lamp.place.floor = scene::AtPolar{0.1, Angle::from_degrees(20)};
-  lamp.place.z = 0.6;
-  scene.lamps = {lamp};
-  LitStandIn result{
-      scene,
-      place::furnish(scene, room::realise(scene.orbifold, scene.room.shape).value(), mesh_io::assets_from_files()).value().interior,
-      {}};
-  light::LightOptions options;
-  options.cull_below = 0;
-  options.indirect_bounces = passes;
-  result.lighting = light::prepare_light(result.scene, result.room, options).value();
-  return result;
+  return test::light_room(scene, 2, indirect_bounces);
 }
 
 }  // namespace
 
 TEST_CASE("a point of a coarser level is lit as the surface just there, not as its far side", "[bake]") {
-  const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"));
-  const geometry::Space space = l.room.polygon.space;
+  const LitRoom l = lit(GENERATE("*222", "*333", "*22222"));
+  const geometry::Space space = l.interior.polygon.space;
   std::size_t sides = 0;
-  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
-    const place::PlacedMesh& part = l.room.parts[p];
+  for (std::size_t p = 0; p < l.interior.parts.size(); ++p) {
+    const place::PlacedMesh& part = l.interior.parts[p];
     if (part.kind != place::PartKind::object || light::lamp_of_part(part) >= 0) continue;
     for (std::size_t t = 0; t < part.triangles.size(); ++t) {
-      const surface::ShadingPoint on = surface::shading_point(l.room, part, l.lighting.normals[p], t, {0.3, 0.5, 0.2});
+      const surface::ShadingPoint on = surface::shading_point(l.interior, part, l.lighting.normals[p], t, {0.3, 0.5, 0.2});
       // Long patches reach beyond the other side; and normals of a level are not quite those of the part.
       surface::ShadingPoint turned = on;
       turned.normal = on.geometric_normal;
@@ -68,13 +47,14 @@ TEST_CASE("a point of a coarser level is lit as the surface just there, not as i
 
 TEST_CASE("a level that is the part itself has its light", "[bake]") {
   const int passes = GENERATE(0, 6);
-  const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"), passes);
+  const LitRoom l = lit(GENERATE("*222", "*333", "*22222"), passes);
   const auto is_cylinder = [](const place::PlacedMesh& part) {
     return part.kind == place::PartKind::object && light::lamp_of_part(part) < 0;
   };
-  const auto p = static_cast<std::size_t>(std::find_if(l.room.parts.begin(), l.room.parts.end(), is_cylinder) - l.room.parts.begin());
-  place::Interior both = l.room;
-  both.parts.push_back(l.room.parts[p]);
+  const auto p =
+      static_cast<std::size_t>(std::find_if(l.interior.parts.begin(), l.interior.parts.end(), is_cylinder) - l.interior.parts.begin());
+  place::Interior both = l.interior;
+  both.parts.push_back(l.interior.parts[p]);
   scene::BakeSpec draft;
   draft.quality = scene::BakeQuality::draft;
   const bake::DiffuseBake baked = bake::bake_diffuse(both, l.lighting, bake::bake_options(draft), serial_executor()).value();
@@ -96,12 +76,12 @@ TEST_CASE("a level that is the part itself has its light", "[bake]") {
 }
 
 TEST_CASE("frames are lit at their mirrors as just before them", "[bake]") {
-  const LitStandIn l = lit(GENERATE("*222", "*333", "*22222"));
+  const LitRoom l = lit(GENERATE("*222", "*333", "*22222"));
   std::size_t asked = 0, off = 0;
-  for (std::size_t p = 0; p < l.room.parts.size(); ++p) {
-    const place::PlacedMesh& part = l.room.parts[p];
+  for (std::size_t p = 0; p < l.interior.parts.size(); ++p) {
+    const place::PlacedMesh& part = l.interior.parts[p];
     if (part.kind != place::PartKind::frame) continue;
-    const room::Wall& wall = l.room.polygon.walls[static_cast<std::size_t>(part.wall)];
+    const room::Wall& wall = l.interior.polygon.walls[static_cast<std::size_t>(part.wall)];
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         // An edge on the mirror, asked in its middle: its ends lie in the frame's own corners.
@@ -111,8 +91,8 @@ TEST_CASE("frames are lit at their mirrors as just before them", "[bake]") {
         if (!on_mirror(k + 1) || !on_mirror(k + 2)) continue;
         std::array<double, 3> at{0.5, 0.5, 0.5}, before{0.499, 0.499, 0.499};
         at[k] = 0, before[k] = 0.002;
-        const double there = light::irradiance(l.lighting, surface::shading_point(l.room, part, l.lighting.normals[p], t, at)).g;
-        const double near = light::irradiance(l.lighting, surface::shading_point(l.room, part, l.lighting.normals[p], t, before)).g;
+        const double there = light::irradiance(l.lighting, surface::shading_point(l.interior, part, l.lighting.normals[p], t, at)).g;
+        const double near = light::irradiance(l.lighting, surface::shading_point(l.interior, part, l.lighting.normals[p], t, before)).g;
         ++asked;
         off += std::fabs(there - near) > 0.05 * std::max(there, near);
       }

@@ -19,22 +19,22 @@
 using namespace orbc;
 using geometry::Position;
 using geometry::Space;
-using test::Lit;
-using test::lit;
+using test::light_room;
 using test::lit_scene;
+using test::LitRoom;
 
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
 
-double on_floor(const Lit& l, const geometry::Point& p, double z, double up) {
+double on_floor(const LitRoom& l, const geometry::Point& p, double z, double up) {
   return light::irradiance(l.lighting, {{p, z}, {{0, 0, 0}, up}, {p, z}, -1, false}).r;
 }
 
 // Power that arrives on floor, ceiling and walls together: midpoint sums over polar coordinates and over (arc, height).
-double flux(const Lit& l) {
-  const room::Room& room = l.room.polygon;
-  const double height = l.room.height;
+double flux(const LitRoom& l) {
+  const room::Room& room = l.interior.polygon;
+  const double height = l.interior.height;
   double sum = 0;
   constexpr int kTurn = 120, kOut = 60, kAlong = 60;
   for (int i = 0; i < kTurn; ++i) {
@@ -98,7 +98,7 @@ TEST_CASE("all the power of a lamp arrives in a closed room, in all three spaces
   for (const char* orbifold : {"*222", "*2222", "*22222"})
     for (const scene::LampKind kind : {scene::LampKind::point, scene::LampKind::spot, scene::LampKind::disk, scene::LampKind::sphere}) {
       if (kind != scene::LampKind::point && std::string(orbifold) == "*222") continue;
-      const Lit l = lit(lit_scene(orbifold, kind, false), 0);
+      const LitRoom l = light_room(lit_scene(orbifold, kind, false), 0);
       INFO(orbifold << ", kind " << static_cast<int>(kind));
       CHECK(flux(l) == Approx(10).epsilon(0.012));
     }
@@ -106,12 +106,12 @@ TEST_CASE("all the power of a lamp arrives in a closed room, in all three spaces
 
 TEST_CASE("light over a mirror is the light of an image behind it, times the reflectance", "[light]") {
   scene::Scene scene = lit_scene("*2222", scene::LampKind::point, true);
-  const Lit straight = lit(scene, 0), once = lit(scene, 1);
+  const LitRoom straight = light_room(scene, 0), once = light_room(scene, 1);
   const geometry::Point p = geometry::point_from_log(Space::euclidean, {0.05, -0.1});
   double expected = on_floor(straight, p, 0, 1);
   const Position lamp = straight.lighting.lamps->lamps[0].centre;
   for (int w = 0; w < 4; ++w) {
-    const geometry::Point image = room::reflection_in_wall(straight.room.polygon, w) * lamp.floor;
+    const geometry::Point image = room::reflection_in_wall(straight.interior.polygon, w) * lamp.floor;
     const double l = std::hypot(geometry::distance(Space::euclidean, image, p), lamp.z);
     expected += 0.9 * 10 / (4 * kHalfTurn * l * l) * lamp.z / l;
   }
@@ -120,13 +120,13 @@ TEST_CASE("light over a mirror is the light of an image behind it, times the ref
 
 TEST_CASE("on a half sphere light comes back from the mirror, past the antipode", "[light]") {
   scene::Scene scene = lit_scene("*", scene::LampKind::point, true);
-  const Lit l = lit(scene, 2);
+  const LitRoom l = light_room(scene, 2);
   REQUIRE(l.lighting.lamps->images.size() == 5);  // straight, and around both ways; by the mirror, near and far
   const geometry::Point p = geometry::point_from_log(Space::spherical, {-0.4, 0.3});
   const Position lamp = l.lighting.lamps->lamps[0].centre;
   double expected = 0;
   const double d = geometry::distance(Space::spherical, p, lamp.floor);
-  const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.room.polygon, 0) * lamp.floor);
+  const double e = geometry::distance(Space::spherical, p, room::reflection_in_wall(l.interior.polygon, 0) * lamp.floor);
   const std::pair<double, double> ways[] = {
       {d, 1}, {2 * kHalfTurn - d, 0.81}, {2 * kHalfTurn + d, 0.81}, {e, 0.9}, {2 * kHalfTurn - e, 0.9}};
   for (const auto& [arc, weight] : ways) {
@@ -138,12 +138,12 @@ TEST_CASE("on a half sphere light comes back from the mirror, past the antipode"
 
 TEST_CASE("rooms that are no orbifolds get each image only through its own mirrors", "[light]") {
   scene::Scene scene = scene::default_scene(notation::parse("*2222").value());
-  const Lit by_group = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
+  const LitRoom by_group = light_room(lit_scene("*2222", scene::LampKind::point, true), 2);
   std::vector<light::LampImage> images = by_group.lighting.lamps->images;
   CHECK(images.size() == 13);
   // The same room, asked word by word, gives the same light.
-  Lit by_words = lit(lit_scene("*2222", scene::LampKind::point, true), 2);
-  place::Interior other = by_words.room;
+  LitRoom by_words = light_room(lit_scene("*2222", scene::LampKind::point, true), 2);
+  place::Interior other = by_words.interior;
   other.polygon.orbifold.corners[0] = Rational(5, 2);  // only what decides how images are listed
   light::LampSet set = *by_words.lighting.lamps;
   set.images = light::lamp_images(set.lamps, other).value();
@@ -173,13 +173,13 @@ TEST_CASE("the mean over the strata of a pixel is the light of a single full sam
     for (const scene::LampKind kind : {scene::LampKind::point, scene::LampKind::sphere, scene::LampKind::rectangle}) {
       scene::Scene scene = lit_scene(orbifold, kind, true);
       scene.lamps.front().power = 3;
-      const Lit l = lit(scene, 3);
+      const LitRoom l = light_room(scene, 3);
       REQUIRE(l.lighting.lamps->images.size() > 5);
       for (const int samples : {2, 4, 9, 16, 64}) {
         double most = 0, spread = 0;
         for (int k = 0; k < 20; ++k) {
           const geometry::Point p =
-              geometry::point_along(l.room.polygon.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
+              geometry::point_along(l.interior.polygon.space, {}, geometry::Tangent(0, std::cos(0.3 * k), std::sin(0.3 * k)), 0.02 * k);
           const surface::ShadingPoint point{{p, 0}, {{0, 0, 0}, 1}, {p, 0}, -1, false};
           const double whole = light::irradiance(l.lighting, point).r / kHalfTurn;
           double sum = 0;
