@@ -17,15 +17,15 @@
 namespace orbc::bake {
 namespace {
 
-using place::SurfaceStyle;
 using place::PartKind;
 using place::PlacedMesh;
+using place::SurfaceStyle;
 using Texel = std::array<std::uint8_t, 4>;
 
 constexpr int kColorTexels = 4;  // a side of a plain colour: its middle is a corner of four texels, each a whole texel from the border
 constexpr int kGutter = 4;       // texels around a picture
 
-/// What a look needs of the atlas: a colour, or a tinted picture.
+/// What a style needs of the atlas: a colour, or a tinted picture.
 struct Cell {
   int texture = -1;
   Texel color{};                           ///< of a plain colour
@@ -38,40 +38,40 @@ struct Cell {
   [[nodiscard]] auto key() const { return std::tuple(texture, color, color16, tint, tiles, cutoff); }
 };
 
-Cell cell_of(const place::Interior& room, const SurfaceStyle& look, bool tiles) {
+Cell cell_of(const place::Interior& interior, const SurfaceStyle& style, bool tiles) {
   Cell cell;
-  if (look.texture < 0) {
-    cell.color = {image::encode_srgb8(look.color.r), image::encode_srgb8(look.color.g), image::encode_srgb8(look.color.b), 255};
-    cell.color16 = {image::encode_srgb16(look.color.r), image::encode_srgb16(look.color.g), image::encode_srgb16(look.color.b)};
+  if (style.texture < 0) {
+    cell.color = {image::encode_srgb8(style.color.r), image::encode_srgb8(style.color.g), image::encode_srgb8(style.color.b), 255};
+    cell.color16 = {image::encode_srgb16(style.color.r), image::encode_srgb16(style.color.g), image::encode_srgb16(style.color.b)};
     return cell;
   }
-  const image::Image& image = room.textures[look.texture];
-  cell.texture = look.texture;
-  cell.tint = {look.color.r, look.color.g, look.color.b};
+  const image::Image& image = interior.textures[style.texture];
+  cell.texture = style.texture;
+  cell.tint = {style.color.r, style.color.g, style.color.b};
   cell.tiles = tiles;
-  cell.cutoff = look.alpha_cutoff;
+  cell.cutoff = style.alpha_cutoff;
   cell.width = image.width + 2 * kGutter;
   cell.height = image.height + 2 * kGutter;
   return cell;
 }
 
-/// The cells of the atlas, and the cell of each look.
+/// The cells of the atlas, and the cell of each style.
 struct Layout {
   std::vector<Cell> cells;
-  std::vector<std::array<int, 2>> of_look;  ///< [look][1 where the picture tiles a panel, else 0]; −1: unused
+  std::vector<std::array<int, 2>> of_style;  ///< [style][1 where the picture tiles a panel, else 0]; −1: unused
   int width = 0, height = 0;
 };
 
-Layout collect(const place::Interior& room) {
+Layout collect(const place::Interior& interior) {
   Layout layout;
-  layout.of_look.assign(room.styles.size(), {-1, -1});
+  layout.of_style.assign(interior.styles.size(), {-1, -1});
   std::map<decltype(Cell{}.key()), int> known;
-  for (const PlacedMesh& part : room.parts)
-    for (const std::uint16_t look : part.style) {
+  for (const PlacedMesh& part : interior.parts)
+    for (const std::uint16_t style : part.style) {
       const bool tiles = part.kind != PartKind::object;
-      int& cell = layout.of_look[look][tiles];
+      int& cell = layout.of_style[style][tiles];
       if (cell >= 0) continue;
-      Cell made = cell_of(room, room.styles[look], tiles);
+      Cell made = cell_of(interior, interior.styles[style], tiles);
       const auto [at, is_new] = known.try_emplace(made.key(), static_cast<int>(layout.cells.size()));
       if (is_new) layout.cells.push_back(made);
       cell = at->second;
@@ -86,7 +86,7 @@ Texel texel_of(const image::Image& image, const Cell& cell, const std::array<std
           static_cast<std::uint8_t>(image.rgba[at + 3] < cell.cutoff * 255 ? 0 : 255)};
 }
 
-void draw(const place::Interior& room, const Cell& cell, image::Image& atlas) {
+void draw(const place::Interior& interior, const Cell& cell, image::Image& atlas) {
   std::array<std::array<std::uint8_t, 256>, 3> tint;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < 256; ++i) {
@@ -95,13 +95,13 @@ void draw(const place::Interior& room, const Cell& cell, image::Image& atlas) {
     }
   for (int y = 0; y < cell.height; ++y)
     for (int x = 0; x < cell.width; ++x) {
-      const Texel texel = cell.texture < 0 ? cell.color : texel_of(room.textures[cell.texture], cell, tint, x - kGutter, y - kGutter);
+      const Texel texel = cell.texture < 0 ? cell.color : texel_of(interior.textures[cell.texture], cell, tint, x - kGutter, y - kGutter);
       std::copy(texel.begin(), texel.end(), atlas.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(cell.y + y) * atlas.width + cell.x + x));
     }
 }
 
 /// Draws a cell with 16 bits a channel, from the full precision of colours and tints.
-void draw(const place::Interior& room, const Cell& cell, image::Image16& atlas) {
+void draw(const place::Interior& interior, const Cell& cell, image::Image16& atlas) {
   std::array<std::array<std::uint16_t, 256>, 3> tint;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < 256; ++i)
@@ -113,7 +113,7 @@ void draw(const place::Interior& room, const Cell& cell, image::Image16& atlas) 
     for (int x = 0; x < cell.width; ++x) {
       std::array<std::uint16_t, 3> texel = cell.color16;
       if (cell.texture >= 0) {
-        const Texel code = texel_of(room.textures[cell.texture], cell, same, x - kGutter, y - kGutter);
+        const Texel code = texel_of(interior.textures[cell.texture], cell, same, x - kGutter, y - kGutter);
         texel = {tint[0][code[0]], tint[1][code[1]], tint[2][code[2]]};
       }
       std::copy(texel.begin(), texel.end(), atlas.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(cell.y + y) * atlas.width + cell.x + x));
@@ -145,7 +145,7 @@ AddressedPart address(const Layout& layout, const PlacedMesh& own) {
   std::vector<std::pair<int, std::uint32_t>> first(own.floor.size(), {-1, 0});
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> others;
   for (std::size_t t = 0; t < own.triangles.size(); ++t) {
-    const int cell = layout.of_look[own.style[t]][own.kind != PartKind::object];
+    const int cell = layout.of_style[own.style[t]][own.kind != PartKind::object];
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t v = own.triangles[t][i];
       const auto next = static_cast<std::uint32_t>(mesh.floor.size());
@@ -187,8 +187,8 @@ image::Image16 blank_image16(int width, int height) {
   return {width, height, std::vector<std::uint16_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128 * 257)};
 }
 
-Result<Atlas> make_atlas(const place::Interior& room, const AtlasOptions& options) {
-  Layout layout = collect(room);
+Result<Atlas> make_atlas(const place::Interior& interior, const AtlasOptions& options) {
+  Layout layout = collect(interior);
   std::vector<TexelRect> rects;
   for (const Cell& cell : layout.cells) rects.push_back({cell.width, cell.height});
   const auto packed = pack_rects(std::move(rects), options.max_side);
@@ -201,12 +201,12 @@ Result<Atlas> make_atlas(const place::Interior& room, const AtlasOptions& option
   }
   Atlas atlas;
   atlas.image = blank_image(layout.width, layout.height);
-  for (const Cell& cell : layout.cells) draw(room, cell, atlas.image);
+  for (const Cell& cell : layout.cells) draw(interior, cell, atlas.image);
   if (options.with_image16) {
     atlas.image16 = blank_image16(layout.width, layout.height);
-    for (const Cell& cell : layout.cells) draw(room, cell, atlas.image16);
+    for (const Cell& cell : layout.cells) draw(interior, cell, atlas.image16);
   }
-  atlas.room = room;
+  atlas.room = interior;
   for (PlacedMesh& part : atlas.room.parts) {
     AddressedPart addressed = address(layout, part);
     part = std::move(addressed.mesh);

@@ -11,7 +11,7 @@ namespace orbc::bake {
 /// One picture for the whole room, and where every vertex of every part finds its colour in it.
 struct Atlas {
   image::Image image;                                 ///< sRGB, rows from top to bottom
-  place::Interior room;                             ///< the room with vertices split where triangles of different looks met
+  place::Interior room;                               ///< the room with vertices split where triangles of different styles met
   std::vector<std::vector<std::array<float, 2>>> uv;  ///< per part, per vertex; v from top to bottom
   image::Image16 image16;                             ///< the same picture with 16 bits a channel, where that was asked for
 };
@@ -32,6 +32,6 @@ struct AtlasOptions {
 ///              exact), with a gutter of 4 texels: repeated where the texture tiles a panel, stretched where it covers an object. Same
 ///              room, same bytes.
 /// Diagnostics: light.atlas-too-large; the hint names the largest picture.
-[[nodiscard]] Result<Atlas> make_atlas(const place::Interior& room, const AtlasOptions& options = {});
+[[nodiscard]] Result<Atlas> make_atlas(const place::Interior& interior, const AtlasOptions& options = {});
 
 }  // namespace orbc::bake

@@ -41,16 +41,17 @@ bool is_specular(const scene::Material& material, bool lit) {
   return material.kind == Kind::mirror || material.kind == Kind::glass || (lit && material.kind == Kind::metal);
 }
 
-bool is_specular(const place::Interior& room, bool lit) {
-  return std::any_of(room.styles.begin(), room.styles.end(),
-                     [&](const place::SurfaceStyle& look) { return is_specular(look.material, lit); });
+bool is_specular(const place::Interior& interior, bool lit) {
+  return std::any_of(interior.styles.begin(), interior.styles.end(),
+                     [&](const place::SurfaceStyle& style) { return is_specular(style.material, lit); });
 }
 
-bool needs_bake(const scene::Scene& scene, const place::Interior& room) {
-  if (!scene.lamps.empty() || is_specular(room, false) || scene.integrator == scene::Integrator::path) return true;
-  return std::any_of(room.parts.begin(), room.parts.end(), [&](const place::PlacedMesh& part) {
-    return std::any_of(part.style.begin(), part.style.end(),
-                       [&](std::uint16_t look) { return room.styles[look].texture < 0 && surface::varies_in_triangle(room, part, look); });
+bool needs_bake(const scene::Scene& scene, const place::Interior& interior) {
+  if (!scene.lamps.empty() || is_specular(interior, false) || scene.integrator == scene::Integrator::path) return true;
+  return std::any_of(interior.parts.begin(), interior.parts.end(), [&](const place::PlacedMesh& part) {
+    return std::any_of(part.style.begin(), part.style.end(), [&](std::uint16_t style) {
+      return interior.styles[style].texture < 0 && surface::varies_in_triangle(interior, part, style);
+    });
   });
 }
 

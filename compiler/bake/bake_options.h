@@ -28,11 +28,11 @@ struct BakeOptions {
 
 /// Whether a material shows what lies around it: mirror and glass always, metal where there is light.
 [[nodiscard]] bool is_specular(const scene::Material& material, bool lit);
-/// Whether any look of a room is specular.
-[[nodiscard]] bool is_specular(const place::Interior& room, bool lit);
+/// Whether any style of a room is specular.
+[[nodiscard]] bool is_specular(const place::Interior& interior, bool lit);
 
 /// Whether the plain colours of `make_atlas` do not suffice: there are lamps, light between surfaces, mirror or glass objects, or solid
 /// patterns (which a scene without lamps shows unlit).
-[[nodiscard]] bool needs_bake(const scene::Scene& scene, const place::Interior& room);
+[[nodiscard]] bool needs_bake(const scene::Scene& scene, const place::Interior& interior);
 
 }  // namespace orbc::bake

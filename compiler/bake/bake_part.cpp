@@ -22,7 +22,7 @@ struct LitCorner {
 std::vector<LitCorner> lit_corners(const BakePart& part) {
   std::vector<LitCorner> corners(part.normals.vertices.size());
   for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
-    if (part.room.styles[part.mesh.style[t]].material.kind == scene::MaterialKind::emissive) continue;
+    if (part.interior.styles[part.mesh.style[t]].material.kind == scene::MaterialKind::emissive) continue;
     for (std::size_t k = 0; k < 3; ++k)
       if (LitCorner& corner = corners[part.normals.corners[t][k]]; corner.k == 3) corner = {t, k};
   }
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> images_near_vertices(const BakePart& part, std::size_
   double radius = 0;
   for (std::size_t i = first; i < end; ++i) {
     const geometry::Position p = position(i);
-    radius = std::max(radius, math::hypot(geometry::distance(part.room.polygon.space, centre.floor, p.floor), p.z - centre.z));
+    radius = std::max(radius, math::hypot(geometry::distance(part.interior.polygon.space, centre.floor, p.floor), p.z - centre.z));
   }
   return light::images_within(part.lighting, centre, radius);
 }
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> images_near_vertices(const BakePart& part, std::size_
 }  // namespace
 
 BakePoint make_bake_point(const BakePart& part, std::size_t triangle, const std::array<double, 3>& b, double reach) {
-  BakePoint made{surface::shading_point(part.room, part.mesh, part.normals, triangle, b), {}};
+  BakePoint made{surface::shading_point(part.interior, part.mesh, part.normals, triangle, b), {}};
   if (!part.base) return made;
   const light::SurfaceProjection projected = light::project_to_surface(part.lighting, made.point, reach);
   made.point = projected.point;

@@ -20,7 +20,7 @@ struct BaseLight {
 
 /// A part of a room to be baked.
 struct BakePart {
-  const place::Interior& room;
+  const place::Interior& interior;
   const light::LightingContext& lighting;
   const BakeOptions& options;
   const place::PlacedMesh& mesh;

@@ -4,8 +4,9 @@
 
 namespace orbc::bake {
 
-BakedLight::BakedLight(const place::Interior& room, const DiffuseBake& baked) : image_(baked.atlas.image), locator_(room, baked.patches) {
-  for (std::size_t p = 0; p < room.parts.size(); ++p) rects_.insert(rects_.end(), baked.rects[p].begin(), baked.rects[p].end());
+BakedLight::BakedLight(const place::Interior& interior, const DiffuseBake& baked)
+    : image_(baked.atlas.image), locator_(interior, baked.patches) {
+  for (std::size_t p = 0; p < interior.parts.size(); ++p) rects_.insert(rects_.end(), baked.rects[p].begin(), baked.rects[p].end());
 }
 
 std::optional<scene::Color> BakedLight::at(const trace::SurfacePoint& point, const trace::Hit& hit) const {

@@ -11,7 +11,7 @@ namespace orbc::bake {
 class BakedLight {
  public:
   /// In: a bake of a room whose first parts are those of `room`.
-  BakedLight(const place::Interior& room, const DiffuseBake& baked);
+  BakedLight(const place::Interior& interior, const DiffuseBake& baked);
   /// What a matte surface sends to every eye: radiance × exposure, interpolated between texels. Nothing where there is no patch.
   [[nodiscard]] std::optional<scene::Color> at(const trace::SurfacePoint& point, const trace::Hit& hit) const;
 

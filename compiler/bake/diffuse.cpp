@@ -113,22 +113,22 @@ Result<DiffuseBake> pack_texels(const std::vector<PartToPack>& parts, const Bake
   return baked;
 }
 
-Result<DiffuseBake> bake_diffuse(const place::Interior& room, const light::LightingContext& lighting, const BakeOptions& options,
+Result<DiffuseBake> bake_diffuse(const place::Interior& interior, const light::LightingContext& lighting, const BakeOptions& options,
                                  const Executor& executor, const Progress& progress) {
   std::vector<std::vector<TexelPatch>> patches;
-  for (std::size_t p = 0; p < room.parts.size(); ++p) {
+  for (std::size_t p = 0; p < interior.parts.size(); ++p) {
     const bool is_known = p < lighting.normals.size();
-    patches.push_back(
-        make_patches(room, static_cast<std::uint32_t>(p), is_known ? lighting.normals[p] : surface::part_normals(room, room.parts[p])));
+    patches.push_back(make_patches(interior, static_cast<std::uint32_t>(p),
+                                   is_known ? lighting.normals[p] : surface::part_normals(interior, interior.parts[p])));
   }
-  const DiffuseTexels texels = bake_texels(room, patches, lighting, options, executor, progress);
+  const DiffuseTexels texels = bake_texels(interior, patches, lighting, options, executor, progress);
   std::vector<PartToPack> parts;
-  for (std::size_t p = 0; p < room.parts.size(); ++p) parts.push_back({&room.parts[p].name, &patches[p], &texels.parts[p]});
+  for (std::size_t p = 0; p < interior.parts.size(); ++p) parts.push_back({&interior.parts[p].name, &patches[p], &texels.parts[p]});
   auto baked = pack_texels(parts, options);
   if (!baked) return baked.error();
   baked->counts = texels.counts;
-  baked->atlas.room = room;
-  for (std::size_t p = 0; p < room.parts.size(); ++p) baked->atlas.room.parts[p] = split_by_patch(room.parts[p], patches[p]);
+  baked->atlas.room = interior;
+  for (std::size_t p = 0; p < interior.parts.size(); ++p) baked->atlas.room.parts[p] = split_by_patch(interior.parts[p], patches[p]);
   return baked;
 }
 

@@ -39,7 +39,7 @@ struct PartToPack {
 
 /// Bakes a room, as bake_texels does, and packs all of its parts. Makes: an atlas with the room, its parts split by patch.
 /// Diagnostics: light.atlas-too-large.
-[[nodiscard]] Result<DiffuseBake> bake_diffuse(const place::Interior& room, const light::LightingContext& lighting,
+[[nodiscard]] Result<DiffuseBake> bake_diffuse(const place::Interior& interior, const light::LightingContext& lighting,
                                                const BakeOptions& options, const Executor& executor, const Progress& progress = {});
 
 }  // namespace orbc::bake

@@ -30,15 +30,15 @@ struct PatchStyle {
 };
 PatchStyle style_of(const BakePart& part, const TexelPatch& patch) {
   const int number = part.mesh.style[patch.first];
-  const place::SurfaceStyle& look = part.room.styles[static_cast<std::size_t>(number)];
-  return {look.material, look.color, surface::varies_in_triangle(part.room, part.mesh, number)};
+  const place::SurfaceStyle& style = part.interior.styles[static_cast<std::size_t>(number)];
+  return {style.material, style.color, surface::varies_in_triangle(part.interior, part.mesh, number)};
 }
 
 /// The lamp images that may reach any point of a patch.
 std::vector<std::uint32_t> images_near_patch(const BakePart& part, const TexelPatch& patch) {
-  const geometry::Space space = part.room.polygon.space;
+  const geometry::Space space = part.interior.polygon.space;
   const BarycentricPoint middle = barycentric_point(patch, 0.5, 0.5);
-  const geometry::Position centre = surface::shading_point(part.room, part.mesh, part.normals, middle.triangle, middle.b).at;
+  const geometry::Position centre = surface::shading_point(part.interior, part.mesh, part.normals, middle.triangle, middle.b).at;
   double radius = 0;
   const auto include = [&](std::size_t triangle) {
     for (const std::uint32_t v : part.mesh.triangles[triangle])
@@ -111,7 +111,7 @@ int aligned_points(int own, int other) {
 /// The size of a patch in texels.
 std::array<int, 2> texel_count(const BakePart& part, const TexelPatch& patch, const PatchStyle& style, const IrradianceGrid& direct,
                                const IrradianceGrid* indirect) {
-  const double density = style.varies ? pattern_density(part.room, part.mesh, patch, part.options) : 0;
+  const double density = style.varies ? pattern_density(part.interior, part.mesh, patch, part.options) : 0;
   const auto for_pattern = [&](double length) { return (1 << halvings(length * density)) + 1; };
   const int width = indirect ? aligned_points(direct.width, indirect->width) : direct.width;
   const int height = indirect ? aligned_points(direct.height, indirect->height) : direct.height;
@@ -150,10 +150,10 @@ PatchTexels shade_patch(const BakePart& part, const TexelPatch& patch, const Irr
       }
       Color irradiance = interpolate(direct, u, v);
       if (indirect) irradiance = irradiance + std::numbers::pi * interpolate(*indirect, u, v);
-      const Color albedo = style.varies ? albedo_at(part.room, part.mesh, patch, u, v) : style.color;
+      const Color albedo = style.varies ? albedo_at(part.interior, part.mesh, patch, u, v) : style.color;
       shown.color[shown.index(i, j)] = part.lighting.exposure * light::outgoing_radiance(part.lighting, style.material, albedo, irradiance);
     }
-  return encode_texels(part.room, patch, shown, part.options.with_image16);
+  return encode_texels(part.interior, patch, shown, part.options.with_image16);
 }
 
 }  // namespace orbc::bake

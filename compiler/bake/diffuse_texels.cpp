@@ -15,7 +15,7 @@ namespace orbc::bake {
 namespace {
 
 struct RoomBake {
-  const place::Interior& room;
+  const place::Interior& interior;
   const std::vector<std::vector<TexelPatch>>& patches;  ///< per part
   const light::LightingContext& lighting;
   const BakeOptions& options;
@@ -33,22 +33,22 @@ struct LitRoom {
 bool is_lod(const light::LightingContext& lighting, std::size_t part) { return lighting.lit && part >= lighting.normals.size(); }
 
 LitRoom light_room(const RoomBake& bake, const Executor& executor, const Progress& progress) {
-  const place::Interior& room = bake.room;
+  const place::Interior& interior = bake.interior;
   const light::LightingContext& lighting = bake.lighting;
   LitRoom lit;
-  lit.lod_normals.resize(room.parts.size());
-  for (std::size_t p = 0; p < room.parts.size(); ++p) {
+  lit.lod_normals.resize(interior.parts.size());
+  for (std::size_t p = 0; p < interior.parts.size(); ++p) {
     const bool is_known = p < lighting.normals.size();
-    if (!is_known) lit.lod_normals[p] = surface::part_normals(room, room.parts[p]);
+    if (!is_known) lit.lod_normals[p] = surface::part_normals(interior, interior.parts[p]);
     lit.normals.push_back(is_known ? &lighting.normals[p] : &lit.lod_normals[p]);
     lit.first.push_back(p == 0 ? 0 : lit.first.back() + bake.patches[p - 1].size());
   }
   lit.direct.resize(lit.first.empty() ? 0 : lit.first.back() + bake.patches.back().size());
-  const std::size_t base_parts = std::min(lighting.normals.size(), room.parts.size());
-  const PatchLocator locator(room, std::span(bake.patches).first(base_parts));
+  const std::size_t base_parts = std::min(lighting.normals.size(), interior.parts.size());
+  const PatchLocator locator(interior, std::span(bake.patches).first(base_parts));
   const BaseLight base{locator, lit.direct};
-  for (std::size_t p = 0; p < room.parts.size(); ++p) {
-    const BakePart part{room, lighting, bake.options, room.parts[p], *lit.normals[p], is_lod(lighting, p) ? &base : nullptr};
+  for (std::size_t p = 0; p < interior.parts.size(); ++p) {
+    const BakePart part{interior, lighting, bake.options, interior.parts[p], *lit.normals[p], is_lod(lighting, p) ? &base : nullptr};
     const VertexLight vertices = light_vertices(part, executor, progress);
     lit.lit_points += vertices.lit_points;
     const std::vector<TexelPatch>& patches = bake.patches[p];
@@ -66,7 +66,7 @@ LitRoom light_room(const RoomBake& bake, const Executor& executor, const Progres
 PartTexels shade_part(const RoomBake& bake, const LitRoom& lit, const std::vector<IrradianceGrid>& indirect, std::size_t p,
                       const Executor& executor) {
   const std::vector<TexelPatch>& patches = bake.patches[p];
-  const BakePart part{bake.room, bake.lighting, bake.options, bake.room.parts[p], *lit.normals[p], nullptr};
+  const BakePart part{bake.interior, bake.lighting, bake.options, bake.interior.parts[p], *lit.normals[p], nullptr};
   std::vector<PatchTexels> shaded(patches.size());
   executor(patches.size(), [&](std::size_t i) {
     const std::size_t at = lit.first[p] + i;
@@ -83,17 +83,17 @@ PartTexels shade_part(const RoomBake& bake, const LitRoom& lit, const std::vecto
 
 }  // namespace
 
-DiffuseTexels bake_texels(const place::Interior& room, const std::vector<std::vector<TexelPatch>>& patches,
+DiffuseTexels bake_texels(const place::Interior& interior, const std::vector<std::vector<TexelPatch>>& patches,
                           const light::LightingContext& lighting, const BakeOptions& options, const Executor& executor,
                           const Progress& progress) {
-  const RoomBake bake{room, patches, lighting, options};
+  const RoomBake bake{interior, patches, lighting, options};
   const LitRoom lit = light_room(bake, executor, progress);
   std::vector<IrradianceGrid> indirect;
   if (lighting.options.indirect_bounces > 0)
-    indirect = solve_radiosity({room, lighting, lit.normals, patches, lit.direct}, options.radiosity, executor, progress);
+    indirect = solve_radiosity({interior, lighting, lit.normals, patches, lit.direct}, options.radiosity, executor, progress);
   DiffuseTexels texels;
   texels.counts.lit_points = lit.lit_points;
-  for (std::size_t p = 0; p < room.parts.size(); ++p) {
+  for (std::size_t p = 0; p < interior.parts.size(); ++p) {
     texels.parts.push_back(shade_part(bake, lit, indirect, p, executor));
     texels.counts.texels += texels.parts.back().rgba.size();
   }

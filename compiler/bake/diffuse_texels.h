@@ -37,7 +37,7 @@ struct DiffuseTexels {
 /// Makes: for every patch a grid of texels from corner to corner, with texel centres on the corners, so that bilinear look-up never leaves
 ///        the patch, and neighbours that share an edge agree on it. Grids are adaptive: coarse where light is even, fine at the borders of
 ///        shadows. Same texels for any executor.
-[[nodiscard]] DiffuseTexels bake_texels(const place::Interior& room, const std::vector<std::vector<TexelPatch>>& patches,
+[[nodiscard]] DiffuseTexels bake_texels(const place::Interior& interior, const std::vector<std::vector<TexelPatch>>& patches,
                                         const light::LightingContext& lighting, const BakeOptions& options, const Executor& executor,
                                         const Progress& progress = {});
 

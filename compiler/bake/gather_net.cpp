@@ -63,7 +63,7 @@ struct InsetVertex {
 /// a smooth surface a vertex stays where it is.
 InsetVertex inset_vertex(const NetPart& part, surface::ShadingPoint point, const NeighbourMean& mean) {
   if (mean.count == 0) return {point, 0};
-  const geometry::Space space = part.surfaces.room.polygon.space;
+  const geometry::Space space = part.surfaces.interior.polygon.space;
   const surface::TangentFrame frame = surface::tangent_frame(space, point.at.floor);
   const geometry::Vector3 n = surface::to_local(space, frame, point.normal);
   const geometry::Vector3 to_mean = surface::to_local(space, frame, {mean.floor - point.at.floor, mean.z - point.at.z});
@@ -74,10 +74,10 @@ InsetVertex inset_vertex(const NetPart& part, surface::ShadingPoint point, const
 }
 
 /// In: how far from the surface the point of a level of detail may lie.
-GatherPoint make_gather_point(const NetPart& part, const surface::ShadingPoint& point, double reach, std::uint16_t look) {
+GatherPoint make_gather_point(const NetPart& part, const surface::ShadingPoint& point, double reach, std::uint16_t style) {
   if (!part.is_lod) return {point, {}};
   const light::SurfaceProjection projected = light::project_to_surface(part.surfaces.lighting, point, reach);
-  return {projected.point, part.locator.find_for_lod(projected.hit, look)};
+  return {projected.point, part.locator.find_for_lod(projected.hit, style)};
 }
 
 std::vector<GatherPoint> vertex_points(const NetPart& part) {
@@ -88,15 +88,16 @@ std::vector<GatherPoint> vertex_points(const NetPart& part) {
   std::vector<GatherPoint> points;
   for (std::size_t v = 0; v < corners.size(); ++v) {
     const auto [triangle, k] = corners[v];
-    const std::uint16_t look = part.mesh.style[triangle];
-    const InsetVertex inset = inset_vertex(part, surface::shading_point(part.surfaces.room, part.mesh, part.normals.vertices[v]), means[v]);
-    points.push_back(make_gather_point(part, inset.point, std::max(light::kVertexTolerance, inset.distance), look));
+    const std::uint16_t style = part.mesh.style[triangle];
+    const InsetVertex inset =
+        inset_vertex(part, surface::shading_point(part.surfaces.interior, part.mesh, part.normals.vertices[v]), means[v]);
+    points.push_back(make_gather_point(part, inset.point, std::max(light::kVertexTolerance, inset.distance), style));
     if (!part.is_lod) continue;
     // A vertex of a level of detail that is a vertex of the part, too, has the light of that vertex.
     const surface::ShadingPoint corner =
-        surface::shading_point(part.surfaces.room, part.mesh, part.normals, triangle, surface::inset_corner(k));
+        surface::shading_point(part.surfaces.interior, part.mesh, part.normals, triangle, surface::inset_corner(k));
     const light::SurfaceProjection projected = light::project_to_surface(part.surfaces.lighting, corner, light::kVertexTolerance);
-    if (const PatchUv on = part.locator.find_for_lod(projected.hit, look); on.patch >= 0) points.back().base = on;
+    if (const PatchUv on = part.locator.find_for_lod(projected.hit, style); on.patch >= 0) points.back().base = on;
   }
   return points;
 }
@@ -129,7 +130,7 @@ NewPatchPoints patch_points(const NetPart& part, const TexelPatch& patch, std::s
         const BarycentricPoint at = inset_point(patch, u, v, surface::kInset);
         grid.point.push_back(static_cast<std::int32_t>(next + made.inside.size()));
         made.inside.push_back(make_gather_point(part,
-                                                surface::shading_point(part.surfaces.room, part.mesh, part.normals, at.triangle, at.b),
+                                                surface::shading_point(part.surfaces.interior, part.mesh, part.normals, at.triangle, at.b),
                                                 std::max(patch.length_u, patch.length_v) / 2, part.mesh.style[at.triangle]));
       }
     }
@@ -140,9 +141,9 @@ NewPatchPoints patch_points(const NetPart& part, const TexelPatch& patch, std::s
 
 GatherNet make_gather_net(const LitPatches& surfaces, const PatchLocator& locator, double density) {
   GatherNet net;
-  for (std::size_t p = 0; p < surfaces.room.parts.size(); ++p) {
+  for (std::size_t p = 0; p < surfaces.interior.parts.size(); ++p) {
     const bool is_lod = p >= surfaces.lighting.normals.size();
-    const NetPart part{surfaces, locator, surfaces.room.parts[p], *surfaces.normals[p], density, is_lod};
+    const NetPart part{surfaces, locator, surfaces.interior.parts[p], *surfaces.normals[p], density, is_lod};
     const std::size_t first_vertex = net.points.size();
     for (GatherPoint& point : vertex_points(part)) net.points.push_back(point);
     for (const TexelPatch& patch : surfaces.patches[p]) {

@@ -42,10 +42,10 @@ int PatchLocator::cell_of(const CellGrid& grid, int c, double at, double shift) 
   return cell > 0 ? static_cast<int>(std::min(cell, grid.cells - 1.0)) : 0;
 }
 
-PatchLocator::PatchLocator(const place::Interior& room, std::span<const std::vector<TexelPatch>> patches) : room_(room) {
-  shell_parts_.resize(2 + room.polygon.walls.size());
-  for (std::size_t p = 0; p < std::min(room.parts.size(), patches.size()); ++p) {
-    const PlacedMesh& part = room.parts[p];
+PatchLocator::PatchLocator(const place::Interior& interior, std::span<const std::vector<TexelPatch>> patches) : interior_(interior) {
+  shell_parts_.resize(2 + interior.polygon.walls.size());
+  for (std::size_t p = 0; p < std::min(interior.parts.size(), patches.size()); ++p) {
+    const PlacedMesh& part = interior.parts[p];
     std::vector<std::uint32_t>& of = patch_of_triangle_.emplace_back(part.triangles.size());
     for (const TexelPatch& patch : patches[p]) {
       of[patch.first] = static_cast<std::uint32_t>(patches_.size());
@@ -65,9 +65,9 @@ PatchLocator::PatchLocator(const place::Interior& room, std::span<const std::vec
 // Coordinates by which points are sorted into cells; they are bounded on each part. Of floor and ceiling those of the gnomonic chart; on
 // S², where w may vanish, those of the disk chart. Of walls the arc length from the middle of the wall, and z.
 std::array<double, 2> PatchLocator::cell_coordinates(const PlacedMesh& part, const Point& at, double z) const {
-  const geometry::Space space = room_.polygon.space;
+  const geometry::Space space = interior_.polygon.space;
   if (part.kind == PartKind::wall) {
-    const auto [p, v] = in_plane_of_wall(space, room_.polygon.walls[static_cast<std::size_t>(part.wall)], at);
+    const auto [p, v] = in_plane_of_wall(space, interior_.polygon.walls[static_cast<std::size_t>(part.wall)], at);
     const double s = space == geometry::Space::euclidean ? v : space == geometry::Space::spherical ? math::atan2(v, p) : math::atanh(v / p);
     return {s, z};
   }
@@ -80,11 +80,11 @@ std::array<double, 3> PatchLocator::barycentric(const PlacedMesh& part, const me
   std::array<double, 3> b{};
   if (part.kind == PartKind::wall) {
     // Σ bᵢ·(Xᵢ × P) = 0 in the plane that holds the wall, Σ bᵢzᵢ = z, Σ bᵢ = 1.
-    const room::Wall& wall = room_.polygon.walls[static_cast<std::size_t>(part.wall)];
-    const auto [p, v] = in_plane_of_wall(room_.polygon.space, wall, at);
+    const room::Wall& wall = interior_.polygon.walls[static_cast<std::size_t>(part.wall)];
+    const auto [p, v] = in_plane_of_wall(interior_.polygon.space, wall, at);
     geometry::Vector3 corner[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [pk, vk] = in_plane_of_wall(room_.polygon.space, wall, part.floor[t[k]]);
+      const auto [pk, vk] = in_plane_of_wall(interior_.polygon.space, wall, part.floor[t[k]]);
       corner[k] = {pk * v - vk * p, part.z[t[k]] - z, 1};
     }
     for (std::size_t k = 0; k < 3; ++k) {
@@ -110,7 +110,7 @@ std::array<double, 3> PatchLocator::barycentric(const PlacedMesh& part, const me
 PatchLocator::CellGrid PatchLocator::make_cell_grid(const PlacedMesh& part) const {
   CellGrid grid;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const bool sphere = room_.polygon.space == geometry::Space::spherical;
+  const bool sphere = interior_.polygon.space == geometry::Space::spherical;
   double high[2] = {-kInfinite, -kInfinite};
   grid.low[0] = grid.low[1] = kInfinite;
   std::vector<std::array<double, 2>> at;
@@ -160,7 +160,7 @@ PatchUv PatchLocator::on_triangle(std::size_t part, std::size_t triangle, const 
 }
 
 PatchUv PatchLocator::find_on_shell(std::size_t p, const trace::SurfacePoint& point) const {
-  const PlacedMesh& part = room_.parts[p];
+  const PlacedMesh& part = interior_.parts[p];
   const CellGrid& grid = cell_grids_[p];
   const std::array<double, 2> at = cell_coordinates(part, point.at.floor, point.at.z);
   const int x = cell_of(grid, 0, at[0], 0), y = cell_of(grid, 1, at[1], 0);
@@ -182,16 +182,16 @@ PatchUv PatchLocator::find(const trace::SurfacePoint& point, const trace::Hit& h
     return on_triangle(static_cast<std::size_t>(hit.part), static_cast<std::size_t>(hit.triangle), {hit.b[0], hit.b[1], hit.b[2]});
   const std::size_t flat = hit.kind == trace::HitKind::floor     ? 0
                            : hit.kind == trace::HitKind::ceiling ? 1
-                                                                  : 2 + static_cast<std::size_t>(hit.wall);
+                                                                 : 2 + static_cast<std::size_t>(hit.wall);
   for (const std::size_t p : shell_parts_[flat])
     if (const PatchUv found = find_on_shell(p, point); found.patch >= 0) return found;
   return {};
 }
 
-PatchUv PatchLocator::find_for_lod(const trace::Hit& hit, std::uint16_t look) const {
+PatchUv PatchLocator::find_for_lod(const trace::Hit& hit, std::uint16_t style) const {
   if (hit.kind != trace::HitKind::triangle) return {};
   const auto part = static_cast<std::size_t>(hit.part), triangle = static_cast<std::size_t>(hit.triangle);
-  if (room_.parts[part].style[triangle] != look) return {};
+  if (interior_.parts[part].style[triangle] != style) return {};
   return on_triangle(part, triangle, {hit.b[0], hit.b[1], hit.b[2]});
 }
 

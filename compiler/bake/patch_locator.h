@@ -20,12 +20,12 @@ struct PatchUv {
 class PatchLocator {
  public:
   /// In: the patches of the first parts of the room, part by part; rays end on those parts alone.
-  PatchLocator(const place::Interior& room, std::span<const std::vector<TexelPatch>> patches);
+  PatchLocator(const place::Interior& interior, std::span<const std::vector<TexelPatch>> patches);
   /// The patch at the point where a ray has ended.
   [[nodiscard]] PatchUv find(const trace::SurfacePoint& point, const trace::Hit& hit) const;
   /// The patch from which a point of a level of detail takes over its light.
-  /// In: the nearest triangle of the surface itself (light::on_surface), and the look that both must have.
-  [[nodiscard]] PatchUv find_for_lod(const trace::Hit& hit, std::uint16_t look) const;
+  /// In: the nearest triangle of the surface itself (light::project_to_surface), and the style that both must have.
+  [[nodiscard]] PatchUv find_for_lod(const trace::Hit& hit, std::uint16_t style) const;
 
  private:
   /// The triangles of a floor, ceiling or wall in a square grid of cells of two coordinates.
@@ -42,7 +42,7 @@ class PatchLocator {
   [[nodiscard]] PatchUv on_triangle(std::size_t part, std::size_t triangle, const std::array<double, 3>& b) const;
   [[nodiscard]] PatchUv find_on_shell(std::size_t part, const trace::SurfacePoint& point) const;
 
-  const place::Interior& room_;
+  const place::Interior& interior_;
   std::vector<std::vector<std::uint32_t>> patch_of_triangle_;  ///< [part][triangle], of all patches
   std::vector<const TexelPatch*> patches_;
   std::vector<CellGrid> cell_grids_;                   ///< per part; empty for objects and frames

@@ -30,16 +30,16 @@ Color texel(const image::Image& image, int x, int y) {
 
 }  // namespace
 
-PatchTexels encode_texels(const place::Interior& room, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16) {
-  const place::PlacedMesh& mesh = room.parts[patch.part];
-  const bool has_alpha_mask = place::has_alpha_mask(room.styles[mesh.style[patch.first]]);
+PatchTexels encode_texels(const place::Interior& interior, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16) {
+  const place::PlacedMesh& mesh = interior.parts[patch.part];
+  const bool has_alpha_mask = place::has_alpha_mask(interior.styles[mesh.style[patch.first]]);
   PatchTexels texels{colors.width, colors.height, {}, {}};
   texels.rgba.reserve(colors.color.size());
   for (int j = 0; j < colors.height; ++j)
     for (int i = 0; i < colors.width; ++i) {
       const Color& c = colors.color[colors.index(i, j)];
       const double u = static_cast<double>(i) / (colors.width - 1), v = static_cast<double>(j) / (colors.height - 1);
-      const std::uint8_t alpha = has_alpha_mask && is_masked_at(room, patch, u, v) ? 0 : 255;
+      const std::uint8_t alpha = has_alpha_mask && is_masked_at(interior, patch, u, v) ? 0 : 255;
       texels.rgba.push_back({image::encode_srgb8(c.r), image::encode_srgb8(c.g), image::encode_srgb8(c.b), alpha});
       if (with_rgb16) texels.rgb16.push_back({image::encode_srgb16(c.r), image::encode_srgb16(c.g), image::encode_srgb16(c.b)});
     }

@@ -17,8 +17,8 @@ struct PatchTexels {
   std::vector<std::array<std::uint16_t, 3>> rgb16;  ///< sRGB of 16 bits a channel, or empty
 };
 
-/// Encodes linear colours. In: the look of the patch decides whether there are holes.
-[[nodiscard]] PatchTexels encode_texels(const place::Interior& room, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16);
+/// Encodes linear colours. In: the style of the patch decides whether there are holes.
+[[nodiscard]] PatchTexels encode_texels(const place::Interior& interior, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16);
 
 /// Where the texels of a rectangle are to be copied from, row by row.
 struct TexelSource {

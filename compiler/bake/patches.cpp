@@ -55,9 +55,9 @@ std::vector<std::array<Neighbour, 3>> neighbours_of(const PlacedMesh& mesh) {
 
 }  // namespace
 
-std::vector<TexelPatch> make_patches(const place::Interior& room, std::uint32_t part, const surface::PartNormals& normals) {
-  const PlacedMesh& mesh = room.parts[part];
-  const auto length = [&](std::uint32_t a, std::uint32_t b) { return edge_length(room.polygon.space, mesh, a, b); };
+std::vector<TexelPatch> make_patches(const place::Interior& interior, std::uint32_t part, const surface::PartNormals& normals) {
+  const PlacedMesh& mesh = interior.parts[part];
+  const auto length = [&](std::uint32_t a, std::uint32_t b) { return edge_length(interior.polygon.space, mesh, a, b); };
   const std::vector<std::array<Neighbour, 3>> neighbours = neighbours_of(mesh);
   std::vector<bool> taken(mesh.triangles.size(), false);
   std::vector<TexelPatch> patches;
@@ -113,18 +113,18 @@ BarycentricPoint barycentric_point(const TexelPatch& patch, double u, double v) 
   return place;
 }
 
-scene::Color albedo_at(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch, double u, double v) {
+scene::Color albedo_at(const place::Interior& interior, const place::PlacedMesh& mesh, const TexelPatch& patch, double u, double v) {
   const BarycentricPoint at = barycentric_point(patch, u, v);
-  return surface::triangle_albedo(room, mesh, at.triangle, at.b);
+  return surface::triangle_albedo(interior, mesh, at.triangle, at.b);
 }
 
-bool is_masked_at(const place::Interior& room, const TexelPatch& patch, double u, double v) {
+bool is_masked_at(const place::Interior& interior, const TexelPatch& patch, double u, double v) {
   if (patch.second < 0 && u + v > 1) {
     u = std::clamp((1 + u - v) / 2, 0.0, 1.0);
     v = 1 - u;
   }
   const BarycentricPoint at = barycentric_point(patch, u, v);
-  return place::is_masked_at(room, room.parts[patch.part], at.triangle, {at.b[0], at.b[1], at.b[2]});
+  return place::is_masked_at(interior, interior.parts[patch.part], at.triangle, {at.b[0], at.b[1], at.b[2]});
 }
 
 }  // namespace orbc::bake

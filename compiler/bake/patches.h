@@ -7,8 +7,8 @@
 
 namespace orbc::bake {
 
-/// Two neighbouring triangles of one look, or a single one, as a square of the atlas. Corners 00, 10 and 01 are those of `first`, corner 11
-/// is the corner of `second` that `first` does not have. u runs from 00 to 10, v from 00 to 01, each from 0 to 1.
+/// Two neighbouring triangles of one style, or a single one, as a square of the atlas. Corners 00, 10 and 01 are those of `first`; corner
+/// 11 is the corner of `second` that `first` does not have. u runs from 00 to 10, v from 00 to 01, each from 0 to 1.
 struct TexelPatch {
   std::uint32_t part = 0;
   std::uint32_t first = 0;
@@ -18,9 +18,10 @@ struct TexelPatch {
   double length_u = 0, length_v = 0;                ///< of the longer of the two opposite sides, intrinsic
 };
 
-/// Pairs the triangles of a part across their longest edge where light may be interpolated over it: both have the same look and the same
+/// Pairs the triangles of a part across their longest edge where light may be interpolated over it: both have the same style and the same
 /// normals at its ends. All other triangles stay single.
-[[nodiscard]] std::vector<TexelPatch> make_patches(const place::Interior& room, std::uint32_t part, const surface::PartNormals& normals);
+[[nodiscard]] std::vector<TexelPatch> make_patches(const place::Interior& interior, std::uint32_t part,
+                                                   const surface::PartNormals& normals);
 
 /// A corner of a patch: corner k of a triangle. In: far_u, far_v say whether u, v is 1 there; both only of pairs.
 struct PatchCorner {
@@ -42,12 +43,12 @@ struct BarycentricPoint {
 }
 
 /// The colour of the surface at (u, v), without light.
-[[nodiscard]] scene::Color albedo_at(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch, double u,
+[[nodiscard]] scene::Color albedo_at(const place::Interior& interior, const place::PlacedMesh& mesh, const TexelPatch& patch, double u,
                                      double v);
 
-/// Whether (u, v) lies in a hole of the surface (SurfaceStyle::alpha_cutoff). Beyond the long side of a single triangle the nearest point of that side
-/// decides.
-[[nodiscard]] bool is_masked_at(const place::Interior& room, const TexelPatch& patch, double u, double v);
+/// Whether (u, v) lies in a hole of the surface (SurfaceStyle::alpha_cutoff). Beyond the long side of a single triangle the nearest point of
+/// that side decides.
+[[nodiscard]] bool is_masked_at(const place::Interior& interior, const TexelPatch& patch, double u, double v);
 /// Whether the point (i, j) of a grid of w × h points from corner to corner lies on the patch. A single triangle has only half of them.
 [[nodiscard]] inline bool on_patch(const TexelPatch& patch, int i, int j, int w, int h) {
   return patch.second >= 0 ||

@@ -26,14 +26,14 @@ double difference(const Color& a, const Color& b) {
 }
 
 /// Whether colours interpolated between texels of that density miss the pattern at too many samples.
-bool exceeds_interpolation_error(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch,
+bool exceeds_interpolation_error(const place::Interior& interior, const place::PlacedMesh& mesh, const TexelPatch& patch,
                                  const BakeOptions& options, double density) {
   const int max_cells = 1 << kMaxPatternHalvings;
   const int cells_u = 1 << halvings(patch.length_u * density), cells_v = 1 << halvings(patch.length_v * density);
   if (cells_u >= max_cells && cells_v >= max_cells) return false;
   const auto albedo = [&](double u, double v) {
     if (patch.second < 0 && u + v > 1) u = 1 - v;  // beyond the long side of a single triangle: as good as on it
-    return albedo_at(room, mesh, patch, u, v);
+    return albedo_at(interior, mesh, patch, u, v);
   };
   const int samples = std::min(kSamples, 2 * cells_u * cells_v);
   int wrong = 0;
@@ -58,11 +58,12 @@ bool exceeds_interpolation_error(const place::Interior& room, const place::Place
 
 int halvings(double cells) { return std::clamp(static_cast<int>(std::lround(math::log2(std::max(1.0, cells)))), 0, kMaxPatternHalvings); }
 
-double pattern_density(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch, const BakeOptions& options) {
-  const place::SurfaceStyle& look = room.styles[mesh.style[patch.first]];
-  if (look.texture >= 0) return options.texture_density;
-  double density = std::clamp(kMinTexelsPerCell / std::max(look.material.cell, 1e-6), options.max_density, options.texture_density);
-  while (density < kMaxDensityFactor * options.texture_density && exceeds_interpolation_error(room, mesh, patch, options, density))
+double pattern_density(const place::Interior& interior, const place::PlacedMesh& mesh, const TexelPatch& patch,
+                       const BakeOptions& options) {
+  const place::SurfaceStyle& style = interior.styles[mesh.style[patch.first]];
+  if (style.texture >= 0) return options.texture_density;
+  double density = std::clamp(kMinTexelsPerCell / std::max(style.material.cell, 1e-6), options.max_density, options.texture_density);
+  while (density < kMaxDensityFactor * options.texture_density && exceeds_interpolation_error(interior, mesh, patch, options, density))
     density *= 2;
   return density;
 }

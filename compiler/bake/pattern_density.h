@@ -11,7 +11,7 @@ namespace orbc::bake {
 /// marble has none of the fine detail that granite of the same cell has.
 /// Error: at all but one in 25 points, colours interpolated between texels are within twice the tolerance of the pattern, unless that
 ///        takes more than 3 times `texture_density` texels.
-[[nodiscard]] double pattern_density(const place::Interior& room, const place::PlacedMesh& mesh, const TexelPatch& patch,
+[[nodiscard]] double pattern_density(const place::Interior& interior, const place::PlacedMesh& mesh, const TexelPatch& patch,
                                      const BakeOptions& options);
 
 }  // namespace orbc::bake

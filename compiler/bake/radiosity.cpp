@@ -71,7 +71,7 @@ RayBatch make_rays(const Solver& solver, const light::Guide& guide, const surfac
 /// In: `seed` of the random numbers that choose between reflection and refraction.
 PointTransport gather_at(const Solver& solver, const surface::ShadingPoint& at, std::size_t seed) {
   const light::LightingContext& lighting = solver.surfaces.lighting;
-  const place::Interior& room = solver.surfaces.room;
+  const place::Interior& interior = solver.surfaces.interior;
   const int samples = solver.options.samples;
   const double links_to_samples = static_cast<double>(samples) / ((samples + solver.link_interval - 1) / solver.link_interval);
   const light::Guide guide = light::guide_at(lighting, at);
@@ -84,12 +84,12 @@ PointTransport gather_at(const Solver& solver, const surface::ShadingPoint& at, 
     directions += static_cast<int>(paths.size());
     for (std::size_t k = 0; k < paths.size(); ++k) {
       const light::LightPath start{{}, {batch.weight[k], batch.weight[k], batch.weight[k]}, {}};
-      const light::LightPath path = light::extend_path(room, lighting, start, std::move(paths[k]), random);
+      const light::LightPath path = light::extend_path(interior, lighting, start, std::move(paths[k]), random);
       transport.source = transport.source + path.radiance;
       if (!path.end) continue;
       ending_inside += !path.end->point.front_facing;
       const PatchUv on = solver.locator.find(path.end->point, path.end->hit);
-      const Color weight = path.throughput * surface::hit_albedo(room, path.end->point);
+      const Color weight = path.throughput * surface::hit_albedo(interior, path.end->point);
       Color radiosity = lighting.ambient;
       if (on.patch >= 0) {
         const IrradianceGrid& direct = solver.surfaces.direct[static_cast<std::size_t>(on.patch)];
@@ -221,7 +221,7 @@ std::vector<Color> copy_to_lods(const Solver& solver, const GatherNet& net, std:
 
 std::vector<IrradianceGrid> solve_radiosity(const LitPatches& surfaces, const RadiosityOptions& options, const Executor& executor,
                                             const Progress& progress) {
-  const PatchLocator locator(surfaces.room, surfaces.patches);
+  const PatchLocator locator(surfaces.interior, surfaces.patches);
   const GatherNet net = make_gather_net(surfaces, locator, options.density);
   const Solver solver{surfaces, options, locator, link_interval_for(net, options)};
   const std::vector<PointTransport> transport = gather(solver, net, executor, progress);

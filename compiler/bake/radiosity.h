@@ -12,7 +12,7 @@ namespace orbc::bake {
 
 /// The patches of a room with their direct light.
 struct LitPatches {
-  const place::Interior& room;
+  const place::Interior& interior;
   const light::LightingContext& lighting;
   const std::vector<const surface::PartNormals*>& normals;  ///< per part
   const std::vector<std::vector<TexelPatch>>& patches;      ///< per part

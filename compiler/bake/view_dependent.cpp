@@ -64,7 +64,7 @@ struct BakedCopies {
 BakedCopies bake_copies(const ViewBakeInput& input, const ViewBakeOptions& options, const Executor& executor, const Progress& progress) {
   BakedCopies all;
   const std::vector<ViewDependentPart> parts =
-      find_view_dependent_parts(input.room, input.lighting, input.drawn, static_cast<bool>(options.specular));
+      find_view_dependent_parts(input.interior, input.lighting, input.drawn, static_cast<bool>(options.specular));
   const std::vector<std::size_t> order = nearest_first(input.copies, input.eye);
   std::size_t next = 0;
   for (; next < order.size() && all.counts.texels <= options.max_texels; next += kCopiesPerBatch) {

@@ -39,7 +39,7 @@ struct DrawnParts {
 
 /// The room, its light, and how the eye sees it.
 struct ViewBakeInput {
-  const place::Interior& room;  ///< of which `diffuse` was made
+  const place::Interior& interior;  ///< of which `diffuse` was made
   const light::LightingContext& lighting;
   const DiffuseBake& diffuse;
   const std::vector<cover::Copy>& copies;
@@ -69,7 +69,7 @@ struct ViewBake {
 };
 
 /// Whether a room has surfaces that look different from every side: mirror, glass and metal, and glossy ones where there are lamps.
-[[nodiscard]] bool needs_view_bake(const place::Interior& room, const light::LightingContext& lighting);
+[[nodiscard]] bool needs_view_bake(const place::Interior& interior, const light::LightingContext& lighting);
 
 /// Bakes what glossy surfaces send to an eye, and what it sees in mirror, glass and metal objects, copy by copy: as seen from a copy, the
 /// eye is its image under the inverse map of that copy.

@@ -30,32 +30,33 @@ BoundingBall bounding_ball(geometry::Space space, const place::PlacedMesh& part)
 
 bool is_glossy(const scene::Material& material) { return material.kind == scene::MaterialKind::glossy; }
 
-std::vector<ViewDependentPart> find_view_dependent_parts(const place::Interior& room, const light::LightingContext& lighting,
+std::vector<ViewDependentPart> find_view_dependent_parts(const place::Interior& interior, const light::LightingContext& lighting,
                                                          const DrawnParts& drawn, bool has_query) {
   const auto is_view_dependent = [&](const scene::Material& m) { return is_glossy(m) || (has_query && is_specular(m, lighting.lit)); };
   std::vector<ViewDependentPart> parts;
-  const std::size_t count = drawn.models.empty() ? std::min(room.parts.size(), lighting.normals.size()) : room.parts.size();
+  const std::size_t count = drawn.models.empty() ? std::min(interior.parts.size(), lighting.normals.size()) : interior.parts.size();
   for (std::size_t p = 0; p < count; ++p) {
-    const place::PlacedMesh& mesh = room.parts[p];
+    const place::PlacedMesh& mesh = interior.parts[p];
     if (std::none_of(mesh.style.begin(), mesh.style.end(),
-                     [&](std::uint16_t look) { return is_view_dependent(room.styles[look].material); }))
+                     [&](std::uint16_t style) { return is_view_dependent(interior.styles[style].material); }))
       continue;
-    ViewDependentPart part{p, bounding_ball(room.polygon.space, mesh), kMinGlossyDiameterPx, {}, {}};
-    const auto is_seen_through_query = [&](std::uint16_t look) {
-      return has_query && is_specular(room.styles[look].material, lighting.lit);
+    ViewDependentPart part{p, bounding_ball(interior.polygon.space, mesh), kMinGlossyDiameterPx, {}, {}};
+    const auto is_seen_through_query = [&](std::uint16_t style) {
+      return has_query && is_specular(interior.styles[style].material, lighting.lit);
     };
     if (std::any_of(mesh.style.begin(), mesh.style.end(), is_seen_through_query)) part.min_diameter_px = kMinSpecularDiameterPx;
     for (const auto& model : drawn.models) part.drawn_in_model.push_back(std::find(model.begin(), model.end(), p) != model.end());
-    if (p >= lighting.normals.size()) part.lod_normals = surface::part_normals(room, mesh);
+    if (p >= lighting.normals.size()) part.lod_normals = surface::part_normals(interior, mesh);
     parts.push_back(std::move(part));
   }
   return parts;
 }
 
-bool needs_view_bake(const place::Interior& room, const light::LightingContext& lighting) {
-  if (is_specular(room, lighting.lit)) return true;
+bool needs_view_bake(const place::Interior& interior, const light::LightingContext& lighting) {
+  if (is_specular(interior, lighting.lit)) return true;
   if (!lighting.lit || lighting.lamps->images.empty()) return false;
-  return std::any_of(room.styles.begin(), room.styles.end(), [](const place::SurfaceStyle& look) { return is_glossy(look.material); });
+  return std::any_of(interior.styles.begin(), interior.styles.end(),
+                     [](const place::SurfaceStyle& style) { return is_glossy(style.material); });
 }
 
 }  // namespace orbc::bake

@@ -24,7 +24,7 @@ struct ViewDependentPart {
 [[nodiscard]] bool is_glossy(const scene::Material& material);
 
 /// The parts whose light depends on the eye. In: `has_query` says whether there is a SpecularQuery for mirrors, glass and metals.
-[[nodiscard]] std::vector<ViewDependentPart> find_view_dependent_parts(const place::Interior& room,
+[[nodiscard]] std::vector<ViewDependentPart> find_view_dependent_parts(const place::Interior& interior,
                                                                        const light::LightingContext& lighting, const DrawnParts& drawn,
                                                                        bool has_query);
 

@@ -28,7 +28,7 @@ constexpr double kMaxViewStep = 3;       // steps of 1/255 between neighbouring 
 constexpr double kGrazingCosine = 0.02;  // surfaces are looked at from no lower
 constexpr double kMinRoughAlpha = 0.05;  // of metals: from here on single samples take as many directions as texels do
 
-const PlacedMesh& mesh_of(const ViewPart& part) { return part.input.room.parts[part.part]; }
+const PlacedMesh& mesh_of(const ViewPart& part) { return part.input.interior.parts[part.part]; }
 
 /// A part of the room itself; false: a level of detail of one.
 bool is_base(const ViewPart& part) { return !part.input.lighting.lit || part.part < part.input.lighting.normals.size(); }
@@ -36,13 +36,13 @@ bool is_base(const ViewPart& part) { return !part.input.lighting.lit || part.par
 /// What the surface of a patch looks like.
 struct ViewStyle {
   const scene::Material& material;
-  int number = 0;            ///< of the look
+  int number = 0;            ///< of the style
   bool is_specular = false;  ///< all of its light depends on the eye; false: only its highlights do
 };
 
 /// What vertices send to the eye; patches that meet there share it.
 struct VertexColors {
-  std::vector<int> look;  ///< for which look the colour is known; −1: none
+  std::vector<int> style;  ///< for which style the colour is known; −1: none
   std::vector<Color> color;
 };
 
@@ -81,16 +81,16 @@ struct ViewSampler {
   VertexColors& vertices;
 
   [[nodiscard]] surface::ShadingPoint point_at(std::size_t triangle, const std::array<double, 3>& b, double reach) const {
-    const surface::ShadingPoint point = surface::shading_point(part.input.room, mesh_of(part), part.normals, triangle, b);
+    const surface::ShadingPoint point = surface::shading_point(part.input.interior, mesh_of(part), part.normals, triangle, b);
     // A level of detail shines where the part itself does. The specular query moves its points by itself.
     return is_base(part) || style.is_specular ? point : light::project_to_surface(part.input.lighting, point, reach).point;
   }
   Color at_corner(const PatchCorner& corner) {
     const std::uint32_t v = part.normals.corners[corner.triangle][corner.k];
-    if (vertices.look[v] != style.number) {
+    if (vertices.style[v] != style.number) {
       const surface::ShadingPoint point = point_at(corner.triangle, surface::inset_corner(corner.k), light::kVertexTolerance);
       vertices.color[v] = view_color(part, style, point, sample_at_points(part, style.material));
-      vertices.look[v] = style.number;
+      vertices.style[v] = style.number;
     }
     return vertices.color[v];
   }
@@ -188,7 +188,7 @@ Color texel_mean(const ViewSampler& sampler, const ColorGrid& grid, int i, int j
     }
     const BarycentricPoint at = barycentric_point(sampler.patch, u, v);
     const ViewPart& part = sampler.part;
-    const surface::ShadingPoint point = surface::shading_point(part.input.room, mesh_of(part), part.normals, at.triangle, at.b);
+    const surface::ShadingPoint point = surface::shading_point(part.input.interior, mesh_of(part), part.normals, at.triangle, at.b);
     sum = sum + view_color(part, sampler.style, point, {k, side * side});
   }
   return (1.0 / (side * side)) * sum;
@@ -272,7 +272,7 @@ std::optional<ViewPatch> bake_view_patch(ViewSampler& sampler, std::size_t numbe
   const auto shown = add_diffuse(sampler, number, grid);
   if (!shown) return std::nullopt;
   const bool with_rgb16 = !part.input.diffuse.atlas.image16.rgb.empty();
-  return ViewPatch{number, encode_texels(part.input.room, sampler.patch, *shown, with_rgb16)};
+  return ViewPatch{number, encode_texels(part.input.interior, sampler.patch, *shown, with_rgb16)};
 }
 
 }  // namespace
@@ -283,9 +283,9 @@ std::vector<ViewPatch> bake_view_part(const ViewPart& part, const Progress& prog
   std::vector<ViewPatch> baked;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     stop_if_cancelled(progress);
-    const int look = mesh_of(part).style[patches[i].first];
-    const scene::Material& material = part.input.room.styles[static_cast<std::size_t>(look)].material;
-    const ViewStyle style{material, look, part.options.specular && is_specular(material, part.input.lighting.lit)};
+    const int number = mesh_of(part).style[patches[i].first];
+    const scene::Material& material = part.input.interior.styles[static_cast<std::size_t>(number)].material;
+    const ViewStyle style{material, number, part.options.specular && is_specular(material, part.input.lighting.lit)};
     if (!style.is_specular && !is_glossy(material)) continue;
     ViewSampler sampler{part, style, patches[i], vertices};
     if (auto patch = bake_view_patch(sampler, i)) baked.push_back(*std::move(patch));
