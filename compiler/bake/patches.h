@@ -46,8 +46,8 @@ struct BarycentricPoint {
 [[nodiscard]] scene::Color albedo_at(const place::Interior& interior, const place::PlacedMesh& mesh, const TexelPatch& patch, double u,
                                      double v);
 
-/// Whether (u, v) lies in a hole of the surface (SurfaceStyle::alpha_cutoff). Beyond the long side of a single triangle the nearest point of
-/// that side decides.
+/// Whether (u, v) lies in a hole of the surface (SurfaceStyle::alpha_cutoff). Beyond the long side of a single triangle the nearest point
+/// of that side decides.
 [[nodiscard]] bool is_masked_at(const place::Interior& interior, const TexelPatch& patch, double u, double v);
 /// Whether the point (i, j) of a grid of w × h points from corner to corner lies on the patch. A single triangle has only half of them.
 [[nodiscard]] inline bool on_patch(const TexelPatch& patch, int i, int j, int w, int h) {
