@@ -32,6 +32,13 @@ function(orbc_tests name folder)
     PROPERTIES LABELS ${TEST_LABELS} TIMEOUT 1200)
 endfunction()
 
+if(ORBC_CORE_ONLY)  # of rooms whose tests read no file
+  foreach(room base geometry notation)
+    orbc_tests(test_${room} tests/unit/${room} USES ${room})
+  endforeach()
+  return()
+endif()
+
 foreach(room base geometry image image_io notation scene room mesh mesh_io diff)
   orbc_tests(test_${room} tests/unit/${room} USES ${room})
 endforeach()

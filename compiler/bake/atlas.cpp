@@ -140,6 +140,7 @@ AddressedPart address(const Layout& layout, const PlacedMesh& own) {
   mesh.floor.clear();
   mesh.z.clear();
   mesh.uv.clear();
+  mesh.color.clear();
   mesh.pattern_position.clear();
   // Most vertices belong to one cell, which stands in `first`; only further cells of a vertex go into the map.
   std::vector<std::pair<int, std::uint32_t>> first(own.floor.size(), {-1, 0});
@@ -157,6 +158,7 @@ AddressedPart address(const Layout& layout, const PlacedMesh& own) {
         mesh.floor.push_back(own.floor[v]);
         mesh.z.push_back(own.z[v]);
         if (!own.uv.empty()) mesh.uv.push_back(own.uv[v]);
+        if (!own.color.empty()) mesh.color.push_back(own.color[v]);
         if (!own.pattern_position.empty()) mesh.pattern_position.push_back(own.pattern_position[v]);
         part.uv.push_back(uv_in(layout, layout.cells[cell], own.uv.empty() ? std::array<float, 2>{0, 0} : own.uv[v]));
       }

@@ -50,7 +50,8 @@ bool needs_bake(const scene::Scene& scene, const place::Interior& interior) {
   if (!scene.lamps.empty() || is_specular(interior, false) || scene.integrator == scene::Integrator::path) return true;
   return std::any_of(interior.parts.begin(), interior.parts.end(), [&](const place::PlacedMesh& part) {
     return std::any_of(part.style.begin(), part.style.end(), [&](std::uint16_t style) {
-      return interior.styles[style].texture < 0 && surface::varies_in_triangle(interior, part, style);
+      const bool is_picture_alone = interior.styles[style].texture >= 0 && part.color.empty();
+      return !is_picture_alone && surface::varies_in_triangle(interior, part, style);
     });
   });
 }

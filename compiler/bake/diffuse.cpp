@@ -65,6 +65,7 @@ PlacedMesh split_by_patch(const PlacedMesh& part, const std::vector<TexelPatch>&
   split.floor.clear();
   split.z.clear();
   split.uv.clear();
+  split.color.clear();
   split.pattern_position.clear();
   const auto copy_vertex = [&](std::uint32_t v) {
     split.floor.push_back(part.floor[v]);

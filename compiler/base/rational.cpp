@@ -13,7 +13,7 @@ using Number = boost::multiprecision::cpp_int;
 
 /// Reaches the number inside an Integer.
 struct BoostNumbers {
-  static_assert(sizeof(Number) <= sizeof(Integer::number_) && alignof(Number) <= alignof(std::max_align_t));
+  static_assert(sizeof(Number) <= sizeof(Integer::number_) && alignof(Number) <= 16);
 
   template <class... T>
   static void construct(Integer& integer, T&&... from) {

@@ -61,7 +61,7 @@ class Integer {
   [[nodiscard]] std::int64_t clamped(std::int64_t least, std::int64_t most) const;
   [[nodiscard]] std::uint64_t clamped(std::uint64_t most) const;
 
-  alignas(std::max_align_t) std::byte number_[32];  ///< holds the Boost number, which is no larger (checked in rational.cpp)
+  alignas(16) std::byte number_[32];  ///< holds the Boost number, which needs no more (checked in rational.cpp)
 };
 
 /// An exact fraction in lowest terms. Decisions about orbifolds are made with these, never with floating point.

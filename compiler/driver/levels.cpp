@@ -172,6 +172,7 @@ PlacedMesh stand_in(const PlacedMesh& part, const mesh::Decimated& coarse, const
   for (const std::uint32_t v : coarse.origin) {
     mesh.floor.push_back(part.floor[v]);
     mesh.z.push_back(part.z[v]);
+    if (!part.color.empty()) mesh.color.push_back(part.color[v]);
     if (!part.pattern_position.empty()) mesh.pattern_position.push_back(part.pattern_position[v]);
   }
   mesh.triangles = coarse.mesh.triangles;

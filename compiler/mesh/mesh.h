@@ -15,11 +15,18 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// A colour in linear light: red, green, blue.
 using LinearColor = std::array<float, 3>;
 
+enum class MaterialKind { matte, glossy, metal, glass, emissive };
+
 /// What a file says that a surface looks like.
 struct Material {
+  MaterialKind kind = MaterialKind::matte;
   std::array<double, 3> color{0.8, 0.8, 0.8};  ///< linear
   int texture = -1;                            ///< index into Mesh::textures; then `color` multiplies it
   double alpha_cutoff = -1;                    ///< texels of less alpha (0…1) than this are holes; < 0: there are none
+  double roughness = 0.3;                      ///< glossy and metal, 0…1
+  double index = 1.5;                          ///< refractive index of glass
+  double emission = 1;                         ///< emissive: radiance = emission × color
+  bool is_invisible = false;                   ///< more transparent than opaque: readers leave its triangles out
 };
 
 /// A triangle mesh as it comes from a file or a formula: Euclidean, z up, counter-clockwise seen from outside.

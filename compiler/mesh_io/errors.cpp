@@ -17,7 +17,9 @@ Diagnostic not_finite(const std::string& name, const std::string& where) {
 }
 
 Diagnostic bad_number(const std::string& name, const std::string& where, std::string_view word) {
-  return make_error("mesh.bad-number", fmt::format("{}: {}: \"{}\" is not a number", name, where, quotable(word)));
+  const bool has_comma = word.find(',') != word.npos && word.find_first_not_of("+-0123456789,eE") == word.npos;
+  return make_error("mesh.bad-number", fmt::format("{}: {}: \"{}\" is not a number", name, where, quotable(word)),
+                    has_comma ? "export it with decimal points: decimal commas depend on the language of the program" : "");
 }
 
 Diagnostic truncated(const std::string& name, const std::string& what) {

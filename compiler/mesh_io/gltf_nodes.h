@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "compiler/geometry/point.h"
@@ -17,11 +18,14 @@ struct AffineMap {
 
 /// A mesh of the model where a node of the scene puts it.
 struct MeshInstance {
-  int node = 0, mesh = 0;
-  AffineMap scene_from_node;
+  int mesh = 0;
+  AffineMap scene_from_mesh;
+  std::vector<double> morph_weights;       ///< of the mesh's morph targets, in the default pose
+  std::vector<AffineMap> scene_from_bind;  ///< of a skinned mesh: per joint, from where the mesh is bound; then scene_from_mesh is unused
 };
 
-/// The meshes of the default scene (else the first; else of every root node), in the order of a walk that visits parents before children.
+/// The meshes of the default scene (else the first; else of every root node), in the order of a walk that visits parents before children:
+/// each in its default pose, each copy of EXT_mesh_gpu_instancing, nothing that KHR_node_visibility hides.
 /// Throws: GltfError where the nodes are no tree.
 [[nodiscard]] std::vector<MeshInstance> mesh_instances(const GltfSource& source);
 

@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "compiler/mesh_io/errors.h"
 #include "compiler/mesh_io/read_gltf.h"
@@ -13,8 +15,25 @@ namespace {
 // Generous for any real file; tinygltf needs up to about 1.5 kB for an object and 0.3 kB for a value, so the worst is below 1.5 GB.
 constexpr std::uint64_t kMaxDepth = 64, kMaxObjects = 300'000, kMaxValues = 3'000'000;
 
+/// Extensions that a file may require: they are read, or what they say makes no difference here.
+bool is_known_extension(std::string_view name) {
+  if (name.substr(0, 14) == "KHR_materials_") return true;
+  for (const std::string_view known : {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "EXT_mesh_gpu_instancing",
+                                       "KHR_node_visibility", "EXT_texture_webp", "KHR_xmp_json_ld", "KHR_animation_pointer"})
+    if (name == known) return true;
+  return false;
+}
+
+std::string hint_for_extension(std::string_view name) {
+  if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression")
+    return "export it without compression";
+  if (name.find("texture") != name.npos) return "export its pictures as PNG or JPEG";
+  return "export it without this extension";
+}
+
 struct JsonScan {
   std::uint64_t depth = 0, deepest = 0, objects = 0, values = 0, buffers = 0;
+  std::vector<std::string_view> required;  ///< the strings of the list extensionsRequired
   bool escaped_key = false;
   bool open_string = false;
 };
@@ -22,7 +41,7 @@ struct JsonScan {
 JsonScan scan_json(std::string_view json) {
   JsonScan scan;
   std::string_view key;  // the last string seen at depth 1
-  bool in_buffers = false;
+  bool in_buffers = false, in_required = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
     if (c == '"') {
@@ -33,6 +52,7 @@ JsonScan scan_json(std::string_view json) {
         ++i;
       }
       if (i >= json.size()) scan.open_string = true;
+      if (scan.depth == 2 && in_required) scan.required.push_back(json.substr(begin, std::min(i, json.size()) - begin));
       if (scan.depth == 1) {
         key = json.substr(begin, std::min(i, json.size()) - begin);
         scan.escaped_key = scan.escaped_key || escaped;
@@ -40,6 +60,7 @@ JsonScan scan_json(std::string_view json) {
     } else if (c == '{' || c == '[') {
       scan.objects += c == '{';
       if (scan.depth == 1) in_buffers = key == "buffers";
+      if (scan.depth == 1) in_required = key == "extensionsRequired" && c == '[';
       if (scan.depth == 2 && in_buffers && c == '{') ++scan.buffers;
       scan.deepest = std::max(scan.deepest, ++scan.depth);
     } else if (c == '}' || c == ']') {
@@ -84,6 +105,11 @@ Diagnostics scan_gltf(std::string_view bytes, bool binary, const ReadContext& co
   if (scan.deepest > kMaxDepth) return bad(fmt::format("brackets {} deep; at most {} are read", scan.deepest, kMaxDepth));
   if (scan.objects > kMaxObjects) return {too_many(context.name, "JSON objects", scan.objects, kMaxObjects)};
   if (scan.values > kMaxValues) return {too_many(context.name, "JSON values", scan.values, kMaxValues)};
+  for (const auto name : scan.required) {
+    if (!is_known_extension(name))
+      return {make_error("mesh.unsupported", fmt::format("{}: needs the glTF extension {}", context.name, quotable(name)),
+                         hint_for_extension(name))};
+  }
   // Every buffer without a uri is a copy of the one chunk.
   if (scan.buffers * chunk > 2 * context.options.max_file_bytes)
     return {too_many(context.name, "buffers of the whole file's size", scan.buffers, 1)};

@@ -10,18 +10,13 @@
 #include "compiler/image_io/decode.h"
 #include "compiler/mesh_io/read_gltf.h"
 #include "compiler/mesh_io/readers.h"
+#include "compiler/mesh_io/tokens.h"
 
 namespace orbc::mesh_io {
 namespace {
 
-std::string lower_case_ending(const std::string& path) {
-  auto ending = std::filesystem::path(path).extension().string();
-  for (auto& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return ending;
-}
-
 std::optional<Format> format_of(const std::string& path) {
-  const auto ending = lower_case_ending(path);
+  const auto ending = lower_case(std::filesystem::path(path).extension().string());
   if (ending == ".obj") return Format::obj;
   if (ending == ".ply") return Format::ply;
   if (ending == ".off") return Format::off;
@@ -29,6 +24,13 @@ std::optional<Format> format_of(const std::string& path) {
   if (ending == ".gltf") return Format::gltf;
   if (ending == ".glb") return Format::glb;
   return {};
+}
+
+std::string hint_for_ending(const std::string& ending) {
+  for (const char* known :
+       {".dae", ".fbx", ".usd", ".usda", ".usdc", ".usdz", ".blend", ".3ds", ".abc", ".x3d", ".wrl", ".dxf", ".3mf", ".bvh"})
+    if (ending == known) return "open it in Blender and export it as glTF (.glb)";
+  return "known are .obj, .ply, .off, .stl, .gltf and .glb";
 }
 
 Result<PolygonSoup> read_soup(std::string_view bytes, Format format, const ReadContext& context) {
@@ -65,7 +67,7 @@ Result<mesh::LoadedMesh> load_mesh(const std::string& path, const LoadOptions& o
     if (auto wrong = files::check_file(path, options.max_file_bytes); !wrong.empty() && wrong.front().code == "mesh.missing-file")
       return wrong;
     return make_error("mesh.unknown-format", fmt::format("{}: is not a kind of mesh file that is known here", path),
-                      "known are .obj, .ply, .off, .stl, .gltf and .glb");
+                      hint_for_ending(lower_case(std::filesystem::path(path).extension().string())));
   }
   auto bytes = files::read_file(path, options.max_file_bytes);
   if (!bytes) return std::move(bytes).error();

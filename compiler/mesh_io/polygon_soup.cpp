@@ -7,7 +7,9 @@
 #include <limits>
 #include <optional>
 
+#include "compiler/mesh_io/colors.h"
 #include "compiler/mesh_io/errors.h"
+#include "compiler/mesh_io/transparency.h"
 #include "compiler/mesh_io/triangulate.h"
 
 namespace orbc::mesh_io {
@@ -70,6 +72,14 @@ std::uint64_t count_triangles(const PolygonSoup& soup) {
   return triangles;
 }
 
+/// Colours of vertices and faces stand in place of those of materials, which are their factor.
+void whiten_untextured(PolygonSoup& soup) {
+  if (soup.materials.empty()) soup.materials.push_back({});
+  for (auto& material : soup.materials) {
+    if (material.texture < 0) material.color = {1, 1, 1};
+  }
+}
+
 /// Triangulates all faces into the mesh. Makes: how many faces had fewer than three vertices.
 std::uint64_t add_triangles(const PolygonSoup& soup, Mesh& mesh) {
   VertexSplitter splitter(soup, mesh);
@@ -104,6 +114,7 @@ std::uint64_t add_triangles(const PolygonSoup& soup, Mesh& mesh) {
 Result<mesh::LoadedMesh> to_mesh(PolygonSoup soup, const ReadContext& context) {
   const std::uint64_t triangles = count_triangles(soup);
   if (triangles > context.options.max_triangles) return too_many(context.name, "triangles", triangles, context.options.max_triangles);
+  if (!soup.vertex_color.empty() || !soup.face_color.empty()) whiten_untextured(soup);
   mesh::LoadedMesh loaded;
   Mesh& mesh = loaded.mesh;
   mesh.triangles.reserve(triangles);
@@ -127,6 +138,7 @@ Result<mesh::LoadedMesh> to_mesh(PolygonSoup soup, const ReadContext& context) {
   }
   mesh.materials = std::move(soup.materials);
   mesh.textures = std::move(soup.textures);
+  mesh = fold_uniform_colors(apply_wrap_modes(without_invisible_triangles(std::move(mesh)), soup.wrap_modes));
   return loaded;
 }
 

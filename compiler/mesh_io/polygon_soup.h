@@ -7,6 +7,7 @@
 #include "compiler/base/result.h"
 #include "compiler/mesh/mesh.h"
 #include "compiler/mesh_io/load.h"
+#include "compiler/mesh_io/wrap_modes.h"
 
 namespace orbc::mesh_io {
 
@@ -27,6 +28,7 @@ struct PolygonSoup {
   std::vector<mesh::LinearColor> face_color;    ///< of each face, or empty
   std::vector<std::uint32_t> face_material;     ///< of each face, index into `materials`; or empty
   std::vector<mesh::Material> materials;
+  std::vector<WrapModes> wrap_modes;  ///< of materials; of those behind its end: repeated
   std::vector<image::Image> textures;
   Diagnostics warnings;
 

@@ -6,15 +6,18 @@
 #include <tiny_gltf.h>
 
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "compiler/files/files.h"
 #include "compiler/mesh/weld.h"
+#include "compiler/mesh_io/colors.h"
+#include "compiler/mesh_io/data_uri.h"
 #include "compiler/mesh_io/errors.h"
 #include "compiler/mesh_io/gltf_material.h"
 #include "compiler/mesh_io/gltf_nodes.h"
 #include "compiler/mesh_io/gltf_primitives.h"
+#include "compiler/mesh_io/texture_loader.h"
+#include "compiler/mesh_io/transparency.h"
 
 namespace orbc::mesh_io {
 namespace {
@@ -28,9 +31,14 @@ struct ReferredFiles {
   GltfPictures pictures;
 };
 
-std::optional<std::string> path_of(ReferredFiles& files, std::string_view reference) {
+std::string_view without_dots(std::string_view reference) {
   while (reference.substr(0, 2) == "./") reference.remove_prefix(2);
-  auto path = files::referred_path(reference, files.context.name, files.context.folder);
+  return reference;
+}
+
+std::optional<std::string> path_of(ReferredFiles& files, std::string_view reference) {
+  constexpr std::size_t kMaxReference = 1000;  // messages quote it
+  auto path = find_referred_file(without_dots(reference).substr(0, kMaxReference), files.context);
   const auto wrong = path ? files::check_file(*path, files.max_bytes) : path.error();
   if (wrong.empty()) return *path;
   for (const auto& known : files.pictures.refused) {
@@ -43,10 +51,19 @@ std::optional<std::string> path_of(ReferredFiles& files, std::string_view refere
 tinygltf::FsCallbacks callbacks(ReferredFiles& files) {
   tinygltf::FsCallbacks fs{};
   fs.user_data = &files;
-  fs.FileExists = [](const std::string& path, void* data) { return path_of(*static_cast<ReferredFiles*>(data), path).has_value(); };
+  fs.FileExists = [](const std::string& path, void* data) {
+    return is_data_uri(without_dots(path)) || path_of(*static_cast<ReferredFiles*>(data), path).has_value();
+  };
   fs.ExpandFilePath = [](const std::string& path, void*) { return path; };
   fs.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path, void* data) {
     auto& own = *static_cast<ReferredFiles*>(data);
+    // tinygltf itself decodes those of known types only.
+    if (is_data_uri(without_dots(path))) {
+      const auto decoded = decode_data_uri(without_dots(path));
+      if (decoded) out->assign(decoded->begin(), decoded->end());
+      if (!decoded) *error = "no data URI";
+      return decoded.has_value();
+    }
     const auto full = path_of(own, path);
     auto bytes = full ? files::read_file(*full, own.max_bytes) : Result<std::string>(Diagnostics{});
     if (!bytes) {
@@ -69,18 +86,7 @@ bool keep_picture(tinygltf::Image* image, const int index, std::string*, std::st
   return true;
 }
 
-void check_extensions(const GltfSource& source) {
-  static const std::set<std::string> kKnown = {
-      "KHR_materials_unlit",        "KHR_mesh_quantization", "KHR_texture_transform",           "KHR_lights_punctual",
-      "KHR_materials_specular",     "KHR_materials_ior",     "KHR_materials_clearcoat",         "KHR_materials_sheen",
-      "KHR_materials_transmission", "KHR_materials_volume",  "KHR_materials_emissive_strength", "KHR_materials_variants"};
-  for (const auto& extension : source.model.extensionsRequired) {
-    if (!kKnown.count(extension)) source.fail("mesh.unsupported", "needs the glTF extension " + extension, "export it without compression");
-  }
-}
-
 mesh::LoadedMesh assemble(const GltfSource& source, const GltfPictures& pictures) {
-  check_extensions(source);
   GltfMaterials materials(source, pictures);
   mesh::Mesh mesh = assemble_mesh(source, mesh_instances(source), materials);
   if (mesh.triangles.empty()) source.fail("mesh.no-triangles", "there is no triangle in its scene");
@@ -88,11 +94,11 @@ mesh::LoadedMesh assemble(const GltfSource& source, const GltfPictures& pictures
   mesh = mesh::remove_unused_vertices(std::move(mesh)).mesh;
   mesh.materials = std::move(materials.materials);
   mesh.textures = std::move(materials.textures);
-  mesh::LoadedMesh loaded{std::move(mesh), std::move(materials.warnings)};
-  if (!source.model.skins.empty()) {
-    loaded.warnings.push_back(make_warning("mesh.ignored", source.context.name + ": is posed by a skeleton; it is shown as it is stored"));
-  }
-  return loaded;
+  mesh = fold_uniform_colors(apply_wrap_modes(without_invisible_triangles(std::move(mesh)), materials.wrap_modes));
+  Diagnostics warnings = materials.warnings();
+  if (!source.model.animations.empty())
+    warnings.push_back(make_note("mesh.ignored", source.context.name + ": is animated; it is shown in the pose in which it is stored"));
+  return {std::move(mesh), std::move(warnings)};
 }
 
 std::string first_line(const std::string& text) {

@@ -3,21 +3,25 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "compiler/files/files.h"
-#include "compiler/image/srgb.h"
+#include "compiler/mesh_io/colors.h"
 #include "compiler/mesh_io/errors.h"
 #include "compiler/mesh_io/read_mtl.h"
 #include "compiler/mesh_io/readers.h"
 #include "compiler/mesh_io/texture_loader.h"
 #include "compiler/mesh_io/tokens.h"
+#include "compiler/mesh_io/transparency.h"
 
 namespace orbc::mesh_io {
 namespace {
 
 constexpr std::uint32_t kNoUv = 0xffffffff;
+/// Of vertices without a colour in a file where others have one: the plain colour, as sRGB encodes it.
+constexpr mesh::LinearColor kNoColor{0.906f, 0.906f, 0.906f};
 constexpr std::uint64_t kMaxMtlBytes = std::uint64_t{16} << 20;
 
 /// A corner whose vertex or uv was not there yet when it was read.
@@ -38,6 +42,7 @@ struct ObjData {
   std::vector<std::uint32_t> face_name;  ///< of each face, index into `material_names`
   std::uint32_t current_name = 0;
   std::vector<std::string> libraries;
+  std::vector<mesh::LinearColor> zbrush_colors;
   std::uint64_t skipped = 0;
 };
 
@@ -73,10 +78,36 @@ Result<std::size_t> read_numbers(Tokens& tokens, std::size_t required, double bo
   return values.size();
 }
 
+/// The colour of a vertex: three numbers behind its coordinates, or behind those and a weight.
+void read_vertex_color(Tokens& tokens, ObjData& data) {
+  std::vector<float> numbers;
+  for (auto word = next_word(tokens); !word.empty() && numbers.size() < 5; word = next_word(tokens)) {
+    const auto value = to_number(word);
+    if (!value || !(std::abs(*value) <= kMaxUv)) return;
+    numbers.push_back(static_cast<float>(*value));
+  }
+  if (numbers.size() != 3 && numbers.size() != 4) return;
+  const std::size_t first = numbers.size() - 3;
+  data.soup.vertex_color.resize(data.soup.positions.size() - 1, kNoColor);
+  data.soup.vertex_color.push_back({numbers[first], numbers[first + 1], numbers[first + 2]});
+}
+
+/// ZBrush's colours of vertices, eight hexadecimal digits each (mask, red, green, blue), in comments "#MRGB".
+void read_zbrush_colors(std::string_view digits, ObjData& data) {
+  for (; digits.size() >= 8; digits.remove_prefix(8)) {
+    unsigned value = 0;
+    const auto end = digits.data() + 8;
+    if (std::from_chars(digits.data(), end, value, 16).ptr != end) return;
+    data.zbrush_colors.push_back(
+        {static_cast<float>(value >> 16 & 255), static_cast<float>(value >> 8 & 255), static_cast<float>(value & 255)});
+  }
+}
+
 Diagnostics read_vertex(Tokens& tokens, ObjData& data, const ReadContext& context) {
   std::array<double, 3> p{};
   if (auto count = read_numbers(tokens, 3, kMaxCoordinate, p, context); !count) return std::move(count).error();
   data.soup.positions.push_back({p[0], p[1], p[2]});
+  read_vertex_color(tokens, data);
   if (data.soup.positions.size() > 3 * context.options.max_triangles)
     return {too_many(context.name, "vertices or more", data.soup.positions.size(), 3 * context.options.max_triangles)};
   return {};
@@ -170,6 +201,7 @@ Result<ObjData> read_statements(std::string_view text, const ReadContext& contex
       else data.libraries.push_back(rest);
       continue;
     }
+    if (key == "#MRGB") read_zbrush_colors(tokens.next_in_line(), data);
     Diagnostics wrong;
     if (key == "v") wrong = read_vertex(tokens, data, context);
     else if (key == "vt") wrong = read_uv(tokens, data, context);
@@ -213,25 +245,46 @@ MtlLibrary read_libraries(ObjData& data, const ReadContext& context) {
   return library;
 }
 
+/// Changes the uv of a face as the options of its picture say; OBJ counts v from the bottom.
+void transform_uv(PolygonSoup& soup, std::size_t face, const MtlMap& map) {
+  const bool is_identity = map.scale == std::array<double, 2>{1, 1} && map.offset == std::array<double, 2>{0, 0};
+  if (soup.corner_uv.empty() || is_identity) return;
+  for (auto c = soup.face_begin[face]; c < soup.face_begin[face + 1]; ++c) {
+    auto& uv = soup.corner_uv[c];
+    const double u = map.scale[0] * static_cast<double>(uv[0]) + map.offset[0];
+    const double v = map.scale[1] * (1 - static_cast<double>(uv[1])) + map.offset[1];
+    uv = {static_cast<float>(std::clamp(u, -kMaxUv, kMaxUv)), static_cast<float>(1 - std::clamp(v, -kMaxUv, kMaxUv))};
+  }
+}
+
+void warn_of_ignored(const MtlLibrary& library, PolygonSoup& soup, const ReadContext& context) {
+  if (library.ignored.empty()) return;
+  std::string keys;
+  for (const auto& key : library.ignored) keys += (keys.empty() ? "" : ", ") + key;
+  soup.warnings.push_back(make_warning("mesh.ignored", fmt::format("{}: its materials have {}, which is left out", context.name, keys)));
+}
+
 /// The materials of the faces, in the order of their first use. Faces without a known one share a plain material.
 void add_materials(ObjData& data, const ReadContext& context) {
   const MtlLibrary library = read_libraries(data, context);
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> index_of_name(data.material_names.size(), kUnused);
   std::uint32_t plain = kUnused;
-  bool any = false;
+  bool any = false, is_exact = true;
   TextureLoader textures(context);
   PolygonSoup& soup = data.soup;
   for (std::size_t f = 0; f < soup.faces(); ++f) {
-    const auto found = library.find(data.material_names[data.face_name[f]]);
-    const bool known = data.face_name[f] != 0 && found != library.end();
+    const auto found = data.face_name[f] == 0 ? library.materials.end() : library.materials.find(data.material_names[data.face_name[f]]);
+    const bool known = found != library.materials.end();
     auto& index = known ? index_of_name[data.face_name[f]] : plain;
     if (index == kUnused) {
       index = static_cast<std::uint32_t>(soup.materials.size());
-      soup.materials.push_back({});
-      if (known) soup.materials.back().color = found->second.color;
-      if (known && !found->second.texture.empty()) soup.materials.back().texture = textures.load(found->second.texture);
+      const ConvertedMaterial made = known ? convert(found->second, textures) : ConvertedMaterial{};
+      soup.materials.push_back(made.material);
+      soup.wrap_modes.push_back(made.wrap);
+      is_exact = is_exact && made.is_exact;
     }
+    if (known) transform_uv(soup, f, found->second.texture);
     any = any || known;
     soup.face_material.push_back(index);
   }
@@ -241,6 +294,22 @@ void add_materials(ObjData& data, const ReadContext& context) {
   }
   soup.textures = std::move(textures.textures);
   soup.warnings.insert(soup.warnings.end(), textures.warnings.begin(), textures.warnings.end());
+  if (!is_exact) soup.warnings.push_back(blending_warning(context.name));
+  if (any) warn_of_ignored(library, soup, context);
+}
+
+void settle_colors(ObjData& data) {
+  auto& colors = data.soup.vertex_color;
+  if (!colors.empty()) {
+    const float white = white_of(colors);
+    for (auto& color : colors) {
+      if (color == kNoColor) color = {kNoColor[0] * white, kNoColor[1] * white, kNoColor[2] * white};
+    }
+    colors.resize(data.soup.positions.size(), {kNoColor[0] * white, kNoColor[1] * white, kNoColor[2] * white});
+    colors = decode_colors(std::move(colors), white);
+  } else if (!data.zbrush_colors.empty() && data.zbrush_colors.size() == data.soup.positions.size()) {
+    colors = decode_colors(std::move(data.zbrush_colors), 255);
+  }
 }
 
 /// A mesh has uv everywhere or nowhere: corners without get those of `vt 0 0`.
@@ -256,8 +325,9 @@ Result<PolygonSoup> read_obj(std::string_view bytes, const ReadContext& context)
   const DecodedText decoded = decode_text(bytes);
   auto data = read_statements(decoded.text(), context);
   if (!data) return std::move(data).error();
-  add_materials(*data, context);
+  settle_colors(*data);
   add_uv(*data);
+  add_materials(*data, context);
   if (data->skipped > 0) {
     data->soup.warnings.push_back(
         make_note("mesh.skipped-faces",

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "compiler/mesh_io/colors.h"
 #include "compiler/mesh_io/errors.h"
 #include "compiler/mesh_io/ply_header.h"
 #include "compiler/mesh_io/readers.h"
@@ -15,17 +17,26 @@ namespace orbc::mesh_io {
 namespace {
 
 /// What a property is to a mesh: a single value by its slot, a list, or nothing.
-enum Slot : std::size_t { kX, kY, kZ, kU, kV, kSingleSlots, kIndices, kTexcoords, kNothing };
+enum Slot : std::size_t { kX, kY, kZ, kU, kV, kRed, kGreen, kBlue, kTexture, kSingleSlots, kIndices, kTexcoords, kNothing };
+
+Slot color_slot_of(const std::string& name) {
+  if (name == "red" || name == "r" || name == "diffuse_red") return kRed;
+  if (name == "green" || name == "g" || name == "diffuse_green") return kGreen;
+  if (name == "blue" || name == "b" || name == "diffuse_blue") return kBlue;
+  return kNothing;
+}
 
 Slot slot_of(const PlyElement& element, const PlyProperty& property) {
   const bool is_list = property.count_type != PlyType::none;
   const auto& n = property.name;
+  if (element.name == "face" && !is_list) return n == "texnumber" || n == "texture_index" ? kTexture : color_slot_of(n);
   if (element.name == "vertex" && !is_list) {
     if (n == "x") return kX;
     if (n == "y") return kY;
     if (n == "z") return kZ;
     if (n == "u" || n == "s" || n == "texture_u" || n == "texture_s") return kU;
     if (n == "v" || n == "t" || n == "texture_v" || n == "texture_t") return kV;
+    return color_slot_of(n);
   }
   if ((element.name == "face" || element.name == "tristrips") && is_list) {
     if (n == "vertex_indices" || n == "vertex_index") return kIndices;
@@ -45,9 +56,32 @@ struct PlyData {
   PolygonSoup soup;
   std::uint64_t vertex_count = 0;
   bool has_vertices = false, has_vertex_uv = false;
+  float vertex_white = 0, face_white = 0;  ///< the value of full light; 0: there are no colours, −1: the file does not say
+  bool has_face_textures = false;
   bool every_face_has_uv = true;
   std::vector<std::array<float, 2>> vertex_uv;
+  std::vector<double> face_texture;  ///< of each face, index of its texture
 };
+
+std::array<bool, kSingleSlots> single_slots(const PlyElement& element) {
+  std::array<bool, kSingleSlots> has{};
+  for (const auto& p : element.properties) {
+    if (const auto slot = slot_of(element, p); slot < kSingleSlots) has[slot] = true;
+  }
+  return has;
+}
+
+/// What stands for full light in the colours of an element: 0 when it has none, −1 when their type does not say.
+float white_of_element(const PlyElement& element) {
+  const auto has = single_slots(element);
+  if (!has[kRed] || !has[kGreen] || !has[kBlue]) return 0;
+  for (const auto& p : element.properties) {
+    if (slot_of(element, p) != kRed) continue;
+    if (p.type == PlyType::u8) return 255;
+    if (p.type == PlyType::u16) return 65535;
+  }
+  return -1;
+}
 
 Diagnostics check_vertex_element(const PlyElement& element, PlyData& data, const ReadContext& context) {
   if (data.has_vertices) return {make_error("mesh.bad-header", fmt::format("{}: two elements \"vertex\"", context.name))};
@@ -55,13 +89,11 @@ Diagnostics check_vertex_element(const PlyElement& element, PlyData& data, const
   data.vertex_count = element.count;
   if (element.count > 3 * context.options.max_triangles)
     return {too_many(context.name, "vertices", element.count, 3 * context.options.max_triangles)};
-  std::array<bool, kSingleSlots> has{};
-  for (const auto& p : element.properties) {
-    if (const auto slot = slot_of(element, p); slot < kSingleSlots) has[slot] = true;
-  }
+  const auto has = single_slots(element);
   if (!has[kX] || !has[kY] || !has[kZ])
     return {make_error("mesh.bad-header", fmt::format("{}: the vertices have no x, y, z", context.name))};
   data.has_vertex_uv = has[kU] && has[kV];
+  data.vertex_white = white_of_element(element);
   return {};
 }
 
@@ -73,6 +105,10 @@ Diagnostics check_counts(const PlyHeader& header, std::uint64_t bytes_left, PlyD
     for (const auto& p : element.properties) size += header.ascii ? 2 : size_of(p.count_type == PlyType::none ? p.type : p.count_type);
     if (element.name == "vertex") {
       if (auto wrong = check_vertex_element(element, data, context); !wrong.empty()) return wrong;
+    }
+    if (element.name == "face") {
+      data.face_white = white_of_element(element);
+      data.has_face_textures = single_slots(element)[kTexture];
     }
     if (element.name == "face" && element.count > context.options.max_triangles)
       return {too_many(context.name, "faces", element.count, context.options.max_triangles)};
@@ -119,12 +155,21 @@ Diagnostics read_entry(PlyBody& body, const PlyElement& element, const std::vect
   return {};
 }
 
+/// Colours may be any number in a hostile file; decode_colors clamps them.
+mesh::LinearColor color_of(const Entry& entry) {
+  const auto channel = [&](Slot slot) {
+    return std::isfinite(entry.values[slot]) ? static_cast<float>(std::clamp(entry.values[slot], 0.0, 65535.0)) : 0.0f;
+  };
+  return {channel(kRed), channel(kGreen), channel(kBlue)};
+}
+
 Diagnostics add_vertex(const Entry& entry, std::uint64_t i, PlyData& data, const ReadContext& context) {
   const auto& v = entry.values;
   for (const auto slot : {kX, kY, kZ}) {
     if (!(std::abs(v[slot]) <= kMaxCoordinate)) return {not_finite(context.name, fmt::format("vertex {}", i))};
   }
   data.soup.positions.push_back({v[kX], v[kY], v[kZ]});
+  if (data.vertex_white != 0) data.soup.vertex_color.push_back(color_of(entry));
   if (!data.has_vertex_uv) return {};
   if (!(std::abs(v[kU]) <= kMaxUv) || !(std::abs(v[kV]) <= kMaxUv)) return {not_finite(context.name, fmt::format("vertex {}", i))};
   data.vertex_uv.push_back({static_cast<float>(v[kU]), static_cast<float>(1 - v[kV])});
@@ -180,7 +225,11 @@ Diagnostics read_elements(const PlyHeader& header, PlyBody& body, PlyData& data,
       if (auto wrong = read_entry(body, element, slots, i, entry, context); !wrong.empty()) return wrong;
       Diagnostics wrong;
       if (element.name == "vertex") wrong = add_vertex(entry, i, data, context);
-      if (element.name == "face") wrong = add_face(entry.indices, entry.texcoords, i, data, context);
+      if (element.name == "face") {
+        wrong = add_face(entry.indices, entry.texcoords, i, data, context);
+        if (data.face_white != 0) data.soup.face_color.push_back(color_of(entry));
+        if (data.has_face_textures) data.face_texture.push_back(entry.values[kTexture]);
+      }
       if (element.name == "tristrips") wrong = add_strip(entry.indices, i, data, context);
       if (!wrong.empty()) return wrong;
     }
@@ -198,15 +247,35 @@ void settle_uv(PlyData& data) {
   for (const auto corner : soup.corners) soup.corner_uv.push_back(data.vertex_uv[corner]);
 }
 
-void add_texture(const PlyHeader& header, PolygonSoup& soup, const ReadContext& context) {
+/// Strips have no colours or textures of their own.
+void settle_colors(PlyData& data) {
+  auto& soup = data.soup;
+  if (soup.face_color.size() != soup.faces()) soup.face_color.clear();
+  const float vertex_white = data.vertex_white > 0 ? data.vertex_white : white_of(soup.vertex_color);
+  const float face_white = data.face_white > 0 ? data.face_white : white_of(soup.face_color);
+  soup.vertex_color = decode_colors(std::move(soup.vertex_color), vertex_white);
+  soup.face_color = decode_colors(std::move(soup.face_color), face_white);
+}
+
+/// One material for each texture of the header; one more for faces without.
+void add_materials(const PlyHeader& header, PlyData& data, const ReadContext& context) {
+  auto& soup = data.soup;
   if (header.textures.empty() || soup.corner_uv.empty()) return;
   TextureLoader textures(context);
-  mesh::Material material;
-  material.color = {1, 1, 1};
-  material.texture = textures.load(header.textures.front());
-  soup.materials.push_back(material);
+  for (const auto& reference : header.textures) {
+    mesh::Material material;
+    material.color = {1, 1, 1};
+    material.texture = textures.load(reference);
+    soup.materials.push_back(material);
+  }
   soup.textures = std::move(textures.textures);
   soup.warnings = std::move(textures.warnings);
+  if (header.textures.size() < 2 || data.face_texture.size() != soup.faces()) return;
+  soup.materials.push_back({});
+  for (const double index : data.face_texture) {
+    const bool known = index >= 0 && index < static_cast<double>(header.textures.size());
+    soup.face_material.push_back(static_cast<std::uint32_t>(known ? index : static_cast<double>(header.textures.size())));
+  }
 }
 
 }  // namespace
@@ -220,7 +289,8 @@ Result<PolygonSoup> read_ply(std::string_view bytes, const ReadContext& context)
   if (auto wrong = check_counts(*header, body.bytes_left(), data, context); !wrong.empty()) return wrong;
   if (auto wrong = read_elements(*header, body, data, context); !wrong.empty()) return wrong;
   settle_uv(data);
-  add_texture(*header, data.soup, context);
+  settle_colors(data);
+  add_materials(*header, data, context);
   return std::move(data.soup);
 }
 

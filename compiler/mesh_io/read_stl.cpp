@@ -1,11 +1,14 @@
 // STL: 80 bytes, a count, 50 bytes a triangle; or text of "vertex x y z" lines.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "compiler/mesh/weld.h"
+#include "compiler/mesh_io/colors.h"
 #include "compiler/mesh_io/errors.h"
 #include "compiler/mesh_io/readers.h"
 #include "compiler/mesh_io/tokens.h"
@@ -13,7 +16,38 @@
 namespace orbc::mesh_io {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50, kNormalBytes = 12;
+constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50, kNormalBytes = 12, kColorAt = 48;
+
+Diagnostic repaired(const ReadContext& context, const std::string& what) {
+  return make_warning("mesh.repaired", fmt::format("{}: {}", context.name, what), "check that nothing is missing, or export it again");
+}
+
+/// The colour of a triangle in 15 bits, five for each channel, sRGB-encoded.
+mesh::LinearColor color_of_bits(unsigned bits, bool red_is_low) {
+  const auto low = static_cast<float>(bits & 31), middle = static_cast<float>(bits >> 5 & 31), high = static_cast<float>(bits >> 10 & 31);
+  return red_is_low ? mesh::LinearColor{low, middle, high} : mesh::LinearColor{high, middle, low};
+}
+
+/// Two programs put colours into the two bytes that the format leaves unused. Materialise Magics announces that by "COLOR=" and the colour
+/// of the rest in the header, and marks triangles that have the latter by the top bit; VisCAM marks those that have one of their own.
+void add_colors(std::string_view bytes, std::uint32_t count, PolygonSoup& soup) {
+  const auto at = bytes.substr(0, kHeaderBytes - 4).find("COLOR=");
+  const bool is_magics = at != bytes.npos && at + 9 <= kHeaderBytes - 4;
+  constexpr float kFiveBits = 31;
+  mesh::LinearColor rest{0.906f * kFiveBits, 0.906f * kFiveBits, 0.906f * kFiveBits};
+  for (std::size_t k = 0; k < 3 && is_magics; ++k)
+    rest[k] = static_cast<float>(static_cast<unsigned char>(bytes[at + 6 + k])) / 255 * kFiveBits;
+  bool any = is_magics;
+  std::vector<mesh::LinearColor> colors;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const char* word = bytes.data() + kHeaderBytes + kTriangleBytes * t + kColorAt;
+    const unsigned bits = static_cast<unsigned char>(word[0]) | static_cast<unsigned>(static_cast<unsigned char>(word[1])) << 8;
+    const bool has_own = (bits >> 15 == 1) != is_magics;
+    colors.push_back(has_own ? color_of_bits(bits, is_magics) : rest);
+    any = any || has_own;
+  }
+  if (any) soup.face_color = decode_colors(std::move(colors), kFiveBits);
+}
 
 /// Corners at the same position become one vertex; vertices are in the order of their first corner.
 void weld_corners(PolygonSoup& soup) {
@@ -48,6 +82,7 @@ Result<PolygonSoup> read_binary(std::string_view bytes, std::uint32_t count, con
     }
   }
   weld_corners(soup);
+  add_colors(bytes, count, soup);
   return soup;
 }
 
@@ -75,7 +110,7 @@ Result<PolygonSoup> read_text(std::string_view text, const ReadContext& context)
   bool ended = false;
   while (!tokens.at_end()) {
     const auto line = tokens.line();
-    const auto word = tokens.next();
+    const auto word = lower_case(tokens.next());
     if (word.empty()) break;
     if (word == "vertex") {
       if (++corner_of_facet > 3) return bad(line, "a facet with more than three vertices");
@@ -98,8 +133,8 @@ Result<PolygonSoup> read_text(std::string_view text, const ReadContext& context)
     }
     tokens.rest_of_line();
   }
-  if (!ended) return truncated(context.name, "\"endsolid\" is missing at the end");
   if (corner_of_facet % 3 != 0) return truncated(context.name, "the last facet is incomplete");
+  if (!ended) soup.warnings.push_back(repaired(context, "\"endsolid\" is missing at the end"));
   weld_corners(soup);
   return soup;
 }
@@ -113,7 +148,14 @@ Result<PolygonSoup> read_stl(std::string_view bytes, const ReadContext& context)
   const std::uint64_t expected = kHeaderBytes + std::uint64_t{kTriangleBytes} * count;
   if (bytes.size() >= kHeaderBytes && bytes.size() == expected) return read_binary(bytes, count, context);
   const DecodedText decoded = decode_text(bytes);
-  if (decoded.text().substr(0, 5) == "solid") return read_text(decoded.text(), context);
+  if (lower_case(Tokens(decoded.text()).next()) == "solid") return read_text(decoded.text(), context);
+  // Programs that write while they work do not come back to fill in the count.
+  const std::uint64_t whole = bytes.size() < kHeaderBytes ? 0 : (bytes.size() - kHeaderBytes) / kTriangleBytes;
+  if ((count == 0 || count == 0xffffffff) && whole > 0 && bytes.size() == kHeaderBytes + whole * kTriangleBytes) {
+    auto soup = read_binary(bytes, static_cast<std::uint32_t>(std::min<std::uint64_t>(whole, 0xfffffffe)), context);
+    if (soup) soup->warnings.push_back(repaired(context, fmt::format("its header promises {} triangles, its size holds {}", count, whole)));
+    return soup;
+  }
   if (bytes.size() < kHeaderBytes)
     return truncated(context.name, fmt::format("{} bytes are neither a binary nor a text STL file", bytes.size()));
   if (bytes.size() < expected)

@@ -9,6 +9,7 @@
 
 #include "compiler/files/files.h"
 #include "compiler/image_io/decode.h"
+#include "compiler/mesh_io/tokens.h"
 
 namespace orbc::mesh_io {
 namespace {
@@ -17,11 +18,6 @@ namespace fs = std::filesystem;
 
 /// Folders with more entries than this are searched no further.
 constexpr int kMaxFolderEntries = 100'000;
-
-std::string lower_case(std::string text) {
-  for (auto& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
 
 /// The entry of a folder that has this name, or else the first in alphabetical order that has it in other case.
 std::optional<fs::path> entry_in_any_case(const fs::path& folder, const std::string& name) {

@@ -16,6 +16,9 @@ struct DecodedText {
 /// Takes a byte order mark away, makes UTF-8 of UTF-16 with a byte order mark, and lines of those that end in '\r' alone.
 [[nodiscard]] DecodedText decode_text(std::string_view bytes);
 
+/// The text with the capitals of ASCII as small letters.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 /// Walks through the words of a text file. Words are separated by blanks; lines are counted for diagnostics.
 class Tokens {
  public:

@@ -23,6 +23,17 @@ namespace orbc::place {
 /// Whether a texel of this alpha is masked in this style.
 [[nodiscard]] inline bool is_masked(std::uint8_t alpha, const SurfaceStyle& style) { return alpha < style.alpha_cutoff * 255; }
 
+/// The factor of the style's colour at affine barycentric coordinates of a triangle. In: a mesh with colours.
+template <class Coordinates>
+[[nodiscard]] scene::Color interpolated_color(const PlacedMesh& part, std::size_t triangle, const Coordinates& b) {
+  scene::Color sum{0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const mesh::LinearColor& c = part.color[part.triangles[triangle][k]];
+    sum = sum + b[k] * scene::Color{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+  }
+  return sum;
+}
+
 /// Whether the point of a triangle with the affine barycentric coordinates b is masked.
 [[nodiscard]] inline bool is_masked_at(const Interior& interior, const PlacedMesh& part, std::size_t triangle, const double (&b)[3]) {
   const SurfaceStyle& style = interior.styles[part.style[triangle]];

@@ -228,6 +228,7 @@ Result<mesh::Mesh> normalised_mesh(const mesh::Mesh& mesh, const scene::Object& 
   const Pose pose(object);
   mesh::Mesh flat;
   flat.uv = mesh.uv;
+  flat.colors = mesh.colors;
   flat.triangles = mesh.triangles;
   flat.triangle_material = mesh.triangle_material;
   if (pose.is_mirrored()) flat = mesh::flip_orientation(std::move(flat));
@@ -287,6 +288,7 @@ Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& obj
   PlacedMesh placed;
   placed.name = object.name;
   placed.uv = std::move(flat.uv);
+  placed.color = std::move(flat.colors);
   placed.triangles = std::move(flat.triangles);
   placed.style.assign(flat.triangle_material.begin(), flat.triangle_material.end());
   placed.style.resize(placed.triangles.size(), 0);

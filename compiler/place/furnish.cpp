@@ -204,6 +204,22 @@ mesh::Mesh primitive(const scene::Object& object) {
   return {};
 }
 
+scene::MaterialKind material_kind(mesh::MaterialKind kind) {
+  switch (kind) {
+    case mesh::MaterialKind::matte:
+      return scene::MaterialKind::matte;
+    case mesh::MaterialKind::glossy:
+      return scene::MaterialKind::glossy;
+    case mesh::MaterialKind::metal:
+      return scene::MaterialKind::metal;
+    case mesh::MaterialKind::glass:
+      return scene::MaterialKind::glass;
+    case mesh::MaterialKind::emissive:
+      return scene::MaterialKind::emissive;
+  }
+  return scene::MaterialKind::matte;
+}
+
 // Adds the styles and textures that a mesh file has.
 std::vector<std::uint16_t> add_file_styles(Builder& builder, const mesh::Mesh& mesh, const PlacedMesh& placed) {
   std::vector<std::uint16_t> styles;
@@ -214,6 +230,10 @@ std::vector<std::uint16_t> add_file_styles(Builder& builder, const mesh::Mesh& m
     style.color = style.material.color = {own.color[0], own.color[1], own.color[2]};
     style.texture = own.texture >= 0 && !placed.uv.empty() ? first + own.texture : -1;
     style.alpha_cutoff = own.alpha_cutoff;
+    style.material.kind = material_kind(own.kind);
+    style.material.roughness = own.roughness;
+    style.material.index = own.index;
+    style.material.emission = own.emission;
     styles.push_back(builder.add(style));
   }
   if (styles.empty()) styles.push_back(builder.add({}));
@@ -244,6 +264,7 @@ void add_in_material(Builder& builder, PlacedMesh mesh, Material material, const
     remove_textures(builder, file.empty() ? kind : file, material);
   }
   std::fill(mesh.style.begin(), mesh.style.end(), std::uint16_t{0});
+  mesh.color.clear();
   if (material.pattern == Pattern::checker) {
     Result<PlacedMesh> cells = checkered(builder.room.space, std::move(mesh), material.cell);
     if (!cells) return builder.fail(std::move(cells).error(), material.span.source ? material.span : span);

@@ -32,6 +32,7 @@ struct PlacedMesh {
   std::vector<geometry::Point> floor;     ///< per vertex: the point of the floor plane below it
   std::vector<double> z;                  ///< per vertex: its height
   std::vector<std::array<float, 2>> uv;   ///< per vertex, v downwards; or empty
+  std::vector<mesh::LinearColor> color;             ///< per vertex: a factor of the style's colour; or empty
   std::vector<geometry::Vector3> pattern_position;  ///< per vertex: coordinates of the object, for solid patterns; or empty
   std::vector<mesh::Triangle> triangles;  ///< counter-clockwise seen from outside (walls, floor, ceiling: seen from inside the room)
   std::vector<std::uint16_t> style;       ///< per triangle: index into Interior::styles

@@ -25,6 +25,11 @@ std::uint32_t interpolated(geometry::Space space, PlacedMesh& mesh, std::uint32_
     for (int i = 0; i < 2; ++i) uv[i] = static_cast<float>((1 - t) * mesh.uv[a][i] + t * mesh.uv[b][i]);
     mesh.uv.push_back(uv);
   }
+  if (!mesh.color.empty()) {
+    mesh::LinearColor color;
+    for (std::size_t k = 0; k < 3; ++k) color[k] = static_cast<float>((1 - t) * mesh.color[a][k] + t * mesh.color[b][k]);
+    mesh.color.push_back(color);
+  }
   if (!mesh.pattern_position.empty()) mesh.pattern_position.push_back((1 - t) * mesh.pattern_position[a] + t * mesh.pattern_position[b]);
   return static_cast<std::uint32_t>(mesh.floor.size() - 1);
 }
@@ -144,6 +149,7 @@ Result<PlacedMesh> cut_at_uv_repeats(geometry::Space space, PlacedMesh mesh, std
         std::array<float, 2> uv;
         for (int i = 0; i < 2; ++i) uv[i] = std::clamp(mesh.uv[e.vertex][i] - static_cast<float>(repeat[i]), 0.0f, 1.0f);
         result.uv.push_back(uv);
+        if (!mesh.color.empty()) result.color.push_back(mesh.color[e.vertex]);
         if (!mesh.pattern_position.empty()) result.pattern_position.push_back(mesh.pattern_position[e.vertex]);
       }
       e.vertex = at->second;

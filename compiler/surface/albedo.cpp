@@ -109,13 +109,13 @@ Vector3 shell_position(geometry::Space space, const geometry::Position& at) {
 bool varies_in_triangle(const place::Interior& interior, const place::PlacedMesh& part, int style) {
   if (style < 0) return false;
   const place::SurfaceStyle& l = interior.styles[static_cast<std::size_t>(style)];
-  return l.texture >= 0 || (has_solid_position(part) && is_solid(l.material.pattern));
+  return l.texture >= 0 || !part.color.empty() || (has_solid_position(part) && is_solid(l.material.pattern));
 }
 
 Color albedo(const place::Interior& interior, const AlbedoQuery& query) {
   if (query.style < 0) return query.color;
   const place::SurfaceStyle& style = interior.styles[static_cast<std::size_t>(query.style)];
-  if (style.texture >= 0) return style.color * texel(interior.textures[static_cast<std::size_t>(style.texture)], query.uv[0], query.uv[1]);
+  if (style.texture >= 0) return query.color * texel(interior.textures[static_cast<std::size_t>(style.texture)], query.uv[0], query.uv[1]);
   if (!query.solid_position || !is_solid(style.material.pattern)) return query.color;
   const double t = solid_pattern(style.material.pattern, *query.solid_position, style.material.cell);
   return (1 - t) * style.material.color + t * style.material.second;
@@ -137,6 +137,7 @@ Color triangle_albedo(const place::Interior& interior, const place::PlacedMesh& 
   AlbedoQuery query;
   query.style = part.style[triangle];
   query.color = interior.styles[part.style[triangle]].color;
+  if (!part.color.empty()) query.color = query.color * place::interpolated_color(part, triangle, b);
   const mesh::Triangle& t = part.triangles[triangle];
   geometry::Ambient sum{0, 0, 0};
   geometry::Vector3 object_position;

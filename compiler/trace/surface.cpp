@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "compiler/geometry/chart.h"
+#include "compiler/place/alpha_mask.h"
 #include "compiler/trace/follow.h"
 
 namespace orbc::trace {
@@ -52,6 +53,7 @@ void fill_triangle(const TraceScene& scene, const Hit& hit, SurfacePoint& point)
   const Direction normal = unit(space, triangle_normal(space, mesh, triangle, hit.b, point.at.floor));
   point.front_facing = inner(space, normal, point.incoming) <= 0;
   point.normal = point.front_facing ? normal : -normal;
+  if (!mesh.color.empty()) point.color = point.color * place::interpolated_color(mesh, hit.triangle, hit.b);
   for (int i = 0; i < 3; ++i) {
     if (!mesh.uv.empty())
       for (int j = 0; j < 2; ++j) point.uv[j] += hit.b[i] * mesh.uv[triangle[i]][j];

@@ -20,6 +20,12 @@ void put(std::string& out, T value) {
 
 inline std::string code_of(const Result<mesh::LoadedMesh>& result) { return result ? "fine" : result.error().front().code; }
 
+inline bool warns(const mesh::LoadedMesh& loaded, const std::string& code, const std::string& part = "") {
+  for (const auto& d : loaded.warnings)
+    if (d.code == code && d.message.find(part) != std::string::npos) return true;
+  return false;
+}
+
 // A tetrahedron in every format: corners (0,0,0), (1,0,0), (0,1,0), (0,0,1), turned outwards.
 
 inline std::string tetra_obj() {

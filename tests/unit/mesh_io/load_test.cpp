@@ -267,7 +267,7 @@ TEST_CASE("every beginning of every file is a mesh or a diagnostic", "[mesh_io]"
       }
     }
     // Text formats without a count are whole before their end; the others only without their last blank or padding.
-    if (file.first != Format::obj) CHECK(fine <= 10);
+    if (file.first != Format::obj && name != "text.stl") CHECK(fine <= 10);
   }
 }
 
