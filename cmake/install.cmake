@@ -68,6 +68,6 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "orbc turns an orbifold such as *22222 i
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liborbc-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libboost-dev, libfmt-dev, libgmp-dev, libhwy-dev, libjpeg-dev, libopenexr-dev, libopenmesh1, libpng-dev, libtbb-dev, libtinygltf-dev, libyaml-cpp-dev, pkg-config")
+  "libboost-dev, libfmt-dev, libgmp-dev, libhwy-dev, libjpeg-dev, libopenexr-dev, libopenmesh1, libpng-dev, libtbb-dev, libtiff-dev, libtinygltf-dev, libwebp-dev, libyaml-cpp-dev, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and static libraries of orbc, for find_package(orbc).")
 include(CPack)

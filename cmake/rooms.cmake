@@ -16,6 +16,7 @@ else()
   # orbc 160 ms and 130 MB (measured; `orbc info` may take 20 ms).
   find_package(PNG REQUIRED)
   find_package(JPEG REQUIRED)
+  pkg_check_modules(PICTURES REQUIRED IMPORTED_TARGET libwebp libtiff-4)
   pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
   find_path(TINYGLTF_INCLUDE tiny_gltf.h REQUIRED)
   find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
@@ -53,7 +54,7 @@ endif()
 
 # The rim: files, pictures, threads, the command line.
 orbc_room(files COLD USES base)
-orbc_room(image_io USES files image PRIVATE PNG::PNG JPEG::JPEG PkgConfig::OPENEXR)
+orbc_room(image_io USES files image PRIVATE PNG::PNG JPEG::JPEG PkgConfig::PICTURES PkgConfig::OPENEXR)
 orbc_room(mesh_io USES mesh files image_io PRIVATE ${TINYGLTF_LIBRARY})
 orbc_room(driver USES bend bake render mesh_io LIBRARIES TBB::tbb)
 foreach(exporter pov gltf svg)

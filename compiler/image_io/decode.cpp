@@ -3,13 +3,32 @@
 #include <fmt/core.h>
 
 #include "compiler/files/files.h"
+#include "compiler/image_io/bmp_tga.h"
 #include "compiler/image_io/jpeg.h"
 #include "compiler/image_io/png.h"
+#include "compiler/image_io/tiff.h"
+#include "compiler/image_io/webp.h"
 
 namespace orbc::image_io {
 
+namespace {
+
+/// What a picture of a kind that is not read is called.
+std::string format_name(std::string_view bytes) {
+  const auto starts_at = [&](std::size_t at, std::string_view mark) { return bytes.size() > at && bytes.substr(at, mark.size()) == mark; };
+  if (starts_at(0, "GIF")) return "a GIF";
+  if (starts_at(0, "DDS ")) return "a DDS picture";
+  if (starts_at(1, "KTX ")) return "a KTX picture";
+  if (starts_at(0, "8BPS")) return "a Photoshop document";
+  if (starts_at(0, "#?RADIANCE")) return "a Radiance HDR picture";
+  if (starts_at(4, "ftypavif")) return "an AVIF picture";
+  return "neither a PNG nor a JPEG picture";
+}
+
+}  // namespace
+
 Diagnostic bad_image(const std::string& name, const std::string& what) {
-  return make_error("mesh.bad-image", fmt::format("{}: {}", name, what), "PNG and JPEG pictures are read");
+  return make_error("mesh.bad-image", fmt::format("{}: {}", name, what), "PNG, JPEG, WebP, TIFF, BMP and TGA pictures are read");
 }
 
 Diagnostics check_size(std::uint64_t width, std::uint64_t height, const std::string& name, const ImageLimits& limits) {
@@ -31,7 +50,10 @@ Result<image::Image> load_image(const std::string& path, const ImageLimits& limi
 Result<image::Image> decode_image(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
   if (is_png(bytes)) return decode_png(bytes, name, limits);
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name, limits);
-  return bad_image(name, bytes.empty() ? "the picture is empty" : "it is neither a PNG nor a JPEG picture");
+  if (is_webp(bytes)) return decode_webp(bytes, name, limits);
+  if (is_tiff(bytes)) return decode_tiff(bytes, name, limits);
+  if (is_bmp_or_tga(bytes, name)) return decode_bmp_or_tga(bytes, name, limits);
+  return bad_image(name, bytes.empty() ? "the picture is empty" : "it is " + format_name(bytes));
 }
 
 }  // namespace orbc::image_io

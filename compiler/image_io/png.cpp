@@ -5,7 +5,9 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
+#include <cstdint>
 #include <stdexcept>
 
 #include "compiler/base/check.h"
@@ -20,6 +22,27 @@ struct PngImage {
   PngImage(const PngImage&) = delete;
   PngImage& operator=(const PngImage&) = delete;
 };
+
+std::uint32_t big_endian_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[at + k]);
+  return value;
+}
+
+/// The file without the chunks that say how its codes are meant: gAMA, cHRM, iCCP. glTF asks for that (specification 2.0.1, section 3.8.3),
+/// and modelling programs do it: the codes are sRGB.
+std::string without_color_chunks(std::string_view bytes) {
+  constexpr std::size_t kSignature = 8, kFrame = 12;  // of a chunk: length, name and checksum
+  std::string kept(bytes.substr(0, kSignature));
+  for (std::size_t at = kSignature; at < bytes.size();) {
+    const std::size_t rest = bytes.size() - at;
+    const std::size_t size = rest < kFrame ? rest : std::min<std::size_t>(rest, kFrame + big_endian_at(bytes, at));
+    const auto name = rest < kFrame ? std::string_view{} : bytes.substr(at + 4, 4);
+    if (name != "gAMA" && name != "cHRM" && name != "iCCP") kept += bytes.substr(at, size);
+    at += size;
+  }
+  return kept;
+}
 
 void append(png_structp png, png_bytep data, png_size_t count) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), count);
@@ -63,9 +86,11 @@ bool is_png(std::string_view bytes) { return bytes.substr(0, 4) == "\x89PNG"; }
 
 Result<image::Image> decode_png(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
   PngImage png;
-  if (!png_image_begin_read_from_memory(&png.state, bytes.data(), bytes.size())) return bad_image(name, png.state.message);
+  const std::string codes = without_color_chunks(bytes);
+  if (!png_image_begin_read_from_memory(&png.state, codes.data(), codes.size())) return bad_image(name, png.state.message);
   if (auto wrong = check_size(png.state.width, png.state.height, name, limits); !wrong.empty()) return wrong;
   png.state.format = PNG_FORMAT_RGBA;
+  png.state.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // without it libpng takes 16 bits for linear light
   image::Image image{static_cast<int>(png.state.width), static_cast<int>(png.state.height),
                      std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png.state))};
   if (!png_image_finish_read(&png.state, nullptr, image.rgba.data(), 0, nullptr)) return bad_image(name, png.state.message);
