@@ -12,10 +12,10 @@
 #include "compiler/image/image.h"
 #include "compiler/mesh/analyse.h"
 #include "compiler/mesh/primitives.h"
+#include "compiler/place/alpha_mask.h"
 #include "compiler/place/bars.h"
 #include "compiler/place/locate.h"
 #include "compiler/place/stitch.h"
-#include "compiler/place/alpha_mask.h"
 #include "compiler/place/uv_repeats.h"
 
 namespace orbc::place {
@@ -46,6 +46,18 @@ image::Image masked(const image::Image* colors, const image::Image& mask) {
   return made;
 }
 
+/// The earlier object that has the very surface of `mesh`, or null. Each renderer would show another one of the two.
+const PlacedMesh* coincident_part(const std::vector<PlacedMesh>& parts, const PlacedMesh& mesh) {
+  if (mesh.kind != PartKind::object) return nullptr;
+  const auto is_same = [](const geometry::Point& a, const geometry::Point& b) { return a.w == b.w && a.x == b.x && a.y == b.y; };
+  for (const PlacedMesh& part : parts) {
+    if (part.kind == PartKind::object && part.z == mesh.z && part.triangles == mesh.triangles &&
+        std::equal(part.floor.begin(), part.floor.end(), mesh.floor.begin(), mesh.floor.end(), is_same))
+      return &part;
+  }
+  return nullptr;
+}
+
 /// The interior under construction. Errors and warnings are collected, so that an author sees all of them at once.
 struct Builder {
   const scene::Scene& scene;
@@ -56,7 +68,7 @@ struct Builder {
   Diagnostics errors, warnings;
   std::map<std::string, int> texture_of_path;
   std::map<std::string, mesh::Mesh> mesh_of_path;  ///< by `normal_path`
-  std::set<std::string> warned;                     ///< keys of warnings that are given once for many objects
+  std::set<std::string> warned;                    ///< keys of warnings that are given once for many objects
 
   void fail(Diagnostics diagnostics, const SourceSpan& span) {
     for (Diagnostic& d : located(std::move(diagnostics), span)) errors.push_back(std::move(d));
@@ -135,6 +147,12 @@ struct Builder {
     if (!textured) mesh.uv.clear();
     Result<PlacedMesh> done = cut_at_uv_repeats(room.space, std::move(mesh));
     if (!done) return fail(std::move(done).error(), span);
+    if (const PlacedMesh* other = coincident_part(interior.parts, *done)) {
+      warnings.push_back(make_warning("place.coincident",
+                                      fmt::format("{} stands exactly where {} does and is left out", done->name, other->name),
+                                      "remove one of them, or move it", span));
+      return;
+    }
     interior.parts.push_back(*std::move(done));
   }
 };

@@ -61,6 +61,7 @@ TEST_CASE("what is to be said of a mesh is said once, however often and however 
     scene::Object object = mesh_object(way, 0.1);
     object.material.emplace().pattern = scene::Pattern::texture;
     object.material->texture.value = "tile.png";
+    object.turn.radians = 0.1 * static_cast<double>(scene.objects.size());  // in one place, but not one in the other
     scene.objects.push_back(object);
   }
   const Furnished all = furnished(scene).value();
@@ -170,6 +171,20 @@ TEST_CASE("all that is wrong with the objects is told at once, and where", "[pla
   CHECK(all.error()[0].span.line == 7);
   CHECK(all.error()[1].code == "mesh.missing-file");
   CHECK(all.error()[2].code.substr(0, 5) == "mesh.");
+}
+
+TEST_CASE("of things that coincide the first is shown, with a warning", "[place]") {
+  scene::Scene scene = default_of("*2222");
+  for (const char* name : {"a", "b"}) {
+    scene::Object ball;
+    ball.name = name;
+    ball.shape = scene::SphereSpec{0.1};
+    scene.objects.push_back(ball);
+  }
+  const Furnished all = furnished(scene).value();
+  REQUIRE(all.warnings.size() == 1);
+  CHECK(all.warnings[0].code == "place.coincident");
+  CHECK(all.interior.parts.back().name == "a");
 }
 
 TEST_CASE("textures are loaded once and their uv lie in one repeat", "[place]") {
