@@ -1,3 +1,5 @@
+#include "compiler/driver/compile.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,26 +11,23 @@
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
-#include "compiler/driver/compile.h"
 #include "compiler/driver/native.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/unlit.h"
-#include "exporters/gltf/write_gltf.h"
-#include "exporters/pov/write_pov.h"
+#include "exporters/formats.h"
 #include "exporters/svg/write_svg.h"
 
 namespace orbc::cli {
 
 namespace {
 
-std::string format_of(const CompileArguments& a) {
-  if (!a.format.empty()) return a.format;
+const exporters::ExportFormat& format_of(const CompileArguments& a) {
   const std::string ending = lower_case(std::filesystem::path(a.output).extension().string());
-  for (const char* known : {"pov", "glb", "gltf", "svg"})
-    if (ending == std::string(".") + known) return known;
-  throw UsageError(a.output == "-"
-                       ? "say which format goes to standard output: -f pov, glb, gltf or svg"
-                       : fmt::format("cannot tell the format from \"{}\"; end it in .pov, .glb, .gltf or .svg, or use --format", a.output));
+  const std::string name = !a.format.empty() ? a.format : ending.empty() ? "" : ending.substr(1);
+  if (const auto* format = exporters::find_export_format(name)) return *format;
+  throw UsageError(a.output == "-" ? "say which format goes to standard output: -f " + exporters::export_format_names("")
+                                   : fmt::format("cannot tell the format from \"{}\"; end it in {}, or use --format", a.output,
+                                                 exporters::export_format_names(".")));
 }
 
 std::string stem_of(const std::string& output) {
@@ -62,32 +61,19 @@ int write_tiling(const driver::Opened& opened, const CompileArguments& a, const 
   return kDone;
 }
 
-std::vector<driver::File> exported(const driver::Product& product, const std::string& format, const std::string& output,
-                                   const CompileArguments& a) {
-  if (format == "pov") {
-    pov::PovOptions options;
-    options.name = stem_of(output);
-    options.inline_atlas = output == "-";
-    return pov::write_pov(product, options);
-  }
-  gltf::GltfOptions options;
-  options.name = stem_of(output);
-  options.binary = format == "glb";
-  options.nodes_per_copy = a.nodes_per_copy;
-  options.nodes_per_object = a.nodes_per_object;
-  return gltf::write_gltf(product, options);
+exporters::ExportOptions export_options(const CompileArguments& a) {
+  return {stem_of(a.output), a.output == "-", a.nodes_per_copy, a.nodes_per_object};
 }
 
-void check_nodes(const CompileArguments& a, const std::string& format) {
+void check_nodes(const CompileArguments& a, const exporters::ExportFormat& format) {
   if (!a.nodes_per_object) return;
-  if (a.nodes_per_copy)
-    throw UsageError("--nodes-per-copy and --nodes-per-object part the same triangles in two ways; choose one of them");
-  if (format != "glb" && format != "gltf") throw UsageError("--nodes-per-object is for .glb and .gltf: other formats have no nodes");
+  if (a.nodes_per_copy) throw UsageError("--nodes-per-copy and --nodes-per-object part the same triangles in two ways; choose one of them");
+  if (!format.has_nodes) throw UsageError("--nodes-per-object is for .glb and .gltf: other formats have no nodes");
 }
 
-Diagnostics notes_of(const driver::Compiled& compiled, const std::string& format) {
+Diagnostics notes_of(const driver::Compiled& compiled, const exporters::ExportFormat& format) {
   Diagnostics notes = compiled.notes;
-  if (compiled.product.native && format != "pov")
+  if (compiled.product.native && !format.lights_copies_apart)
     notes.push_back(make_warning("gltf.native-lights-shared",
                                  "lamps of glTF are points and cones that light every copy, not their own alone; ambient light is left out",
                                  "draw it with POV-Ray, or bake the light (`lights: baked`)"));
@@ -114,27 +100,28 @@ driver::Amount amount_of(const cover::Plan& plan, bool native) {
 }
 
 /// Says that an export will be large, and what would make it smaller; before light is baked, so that there is time to stop.
-void warn_of_size(const cover::Plan& plan, const std::string& format, bool native, const Common& common, Diagnostics& warnings) {
+void warn_of_size(const cover::Plan& plan, const exporters::ExportFormat& format, bool native, const Common& common,
+                  Diagnostics& warnings) {
   constexpr std::uint64_t kLarge = 500'000'000;
-  const auto bytes_of = [&](const driver::Amount& amount) { return format == "pov" ? pov::bytes_of(amount) : gltf::bytes_of(amount); };
-  const std::uint64_t bytes = bytes_of(amount_of(plan, native));
+  const std::uint64_t bytes = format.estimated_bytes(amount_of(plan, native));
   if (bytes <= kLarge) return;
   driver::Amount fits{0, 0, 0, native};
   int bounces = -1;
   for (std::size_t b = 0; b < plan.copies_per_bounces.size(); ++b) {
     fits.copies += static_cast<std::uint64_t>(plan.copies_per_bounces[b]);
     fits.vertices += plan.vertices_per_bounces[b], fits.triangles += plan.triangles_per_bounces[b];
-    if (bytes_of(fits) > kLarge) break;
+    if (format.estimated_bytes(fits) > kLarge) break;
     bounces = static_cast<int>(b);
   }
-  const double share = 0.8 * static_cast<double>(kLarge) / static_cast<double>(bytes);   // the plan may be off by a fifth
+  const double share = 0.8 * static_cast<double>(kLarge) / static_cast<double>(bytes);  // the plan may be off by a fifth
   const auto triangles = static_cast<std::uint64_t>(share * static_cast<double>(plan.triangles)) / 100'000 * 100'000;
   std::string hint = fmt::format("--max-triangles {} makes it smaller, with the least error that does", triangles);
   if (bounces >= 0) hint = fmt::format("--max-bounces {} would stay below 500 MB; {}", bounces, hint);
-  const Diagnostics warning{make_warning(
-      "cli.large-export",
-      fmt::format("the export will have about {:.2g} GB: {} copies, {:.3g} million triangles", static_cast<double>(bytes) / 1e9,
-                  to_string(plan.copies), static_cast<double>(plan.triangles) / 1e6), hint)};
+  const Diagnostics warning{
+      make_warning("cli.large-export",
+                   fmt::format("the export will have about {:.2g} GB: {} copies, {:.3g} million triangles",
+                               static_cast<double>(bytes) / 1e9, to_string(plan.copies), static_cast<double>(plan.triangles) / 1e6),
+                   hint)};
   print(warning, common);
   append(warnings, warning);
 }
@@ -144,29 +131,32 @@ int write_plan(const driver::Opened& opened, const CompileArguments& a, const Co
   if (!plan) return print(plan.error(), common), kSceneWrong;
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(driver::plan_json(*plan));
   const driver::Amount amount = amount_of(*plan, driver::lit_natively(opened.scene));
-  json["pov_bytes"] = pov::bytes_of(amount);
-  json["gltf_bytes"] = gltf::bytes_of(amount);
+  json["pov_bytes"] = exporters::find_export_format("pov")->estimated_bytes(amount);
+  json["gltf_bytes"] = exporters::find_export_format("gltf")->estimated_bytes(amount);
   write_output("-", json.dump(2) + "\n");
   return kDone;
 }
 
-void refuse_what_cannot_be(const CompileArguments& a, const std::string& format, const Common& common) {
-  if (a.output == "-" && format == "gltf") throw UsageError("a .gltf has files beside it and cannot go to standard output; use -f glb");
+void refuse_what_cannot_be(const CompileArguments& a, const exporters::ExportFormat& format, const Common& common) {
+  if (a.output == "-" && !format.can_be_single_file)
+    throw UsageError("a .gltf has files beside it and cannot go to standard output; use -f glb");
   if ((a.output == "-") + (a.report == "-") + (common.json ? 1 : 0) > 1)
     throw UsageError("only one thing can go to standard output: the scene, the report or --json");
 }
 
 }  // namespace
 
-Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& a, const std::string& format, const Common& common) {
-  if (opened.scene.bake.atlas == scene::AtlasFormat::exr && format.substr(0, 2) == "gl")
+Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& a, const std::string& format_name,
+                              const Common& common) {
+  const exporters::ExportFormat& format = *exporters::find_export_format(format_name);
+  if (opened.scene.bake.atlas == scene::AtlasFormat::exr && !format.holds_exr)
     return make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR", "use `atlas: 16` (--atlas 16), or write .pov",
                       opened.scene.span);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const Executor executor = driver::parallel_executor(common.threads, &interrupted());
   driver::CompileOptions options = compile_options(a);
   Diagnostics large;
-  if (!a.max_triangles || *a.max_triangles > 4'000'000)   // fewer are small
+  if (!a.max_triangles || *a.max_triangles > 4'000'000)  // fewer are small
     options.foresee = [&](const cover::Plan& plan) {
       bar.clear();
       if (large.empty()) warn_of_size(plan, format, driver::lit_natively(opened.scene), common, large);
@@ -175,34 +165,34 @@ Result<Exported> export_scene(const driver::Opened& opened, const CompileArgumen
   if (!compiled) return compiled.error();
   Exported result{compiled->report, driver::report_json(*compiled), notes_of(*compiled, format), large, 0};
   report(bar.progress(), "writing", 0, 0);
-  result.bytes = write_files(exported(compiled->product, format, a.output, a), a.output);
+  result.bytes = write_files(format.write(compiled->product, export_options(a)), a.output);
   if (!a.report.empty()) write_output(a.report, result.report_json);
   return result;
 }
 
 int compile(const CompileArguments& a, const Common& common) {
   if (a.output.empty() && !a.plan) throw UsageError("say where to write: -o FILE, or -o - for standard output");
-  const std::string format = a.plan ? "glb" : format_of(a);
+  const exporters::ExportFormat& format = a.plan ? *exporters::find_export_format("glb") : format_of(a);
   refuse_what_cannot_be(a, format, common);
   check_nodes(a, format);
-  (void)compile_options(a);   // mistakes on the command line come before those of the scene
+  (void)compile_options(a);  // mistakes on the command line come before those of the scene
   auto opened = driver::open_scene(a.scene.scene, overrides_of(a.scene));
   if (!opened) return print(opened.error(), common), kSceneWrong;
-  const unsigned target = a.plan ? kPov | kGltf : format == "svg" ? kSvg : format == "pov" ? kPov : kGltf;
+  const unsigned target = a.plan ? kPov | kGltf : !format.write ? kSvg : format.has_nodes ? kGltf : kPov;
   append(opened->notes, without_effect(common.given, {target, a.plan, a.view == "disk", false, 1}, *opened));
   print(opened->notes, common);
   if (a.plan) return write_plan(*opened, a, common);
-  if (format == "svg") return write_tiling(*opened, a, common);
+  if (!format.write) return write_tiling(*opened, a, common);
   const Diagnostics unlit = driver::unlit_note(*opened);
   print(unlit, common);
   append(opened->notes, unlit);
-  const auto made = export_scene(*opened, a, format, common);
+  const auto made = export_scene(*opened, a, std::string(format.name), common);
   if (!made) return print(made.error(), common), kSceneWrong;
   print(made->notes, common);
   append(opened->notes, made->size_warning);
   append(opened->notes, made->notes);
   if (common.json) {
-    nlohmann::ordered_json result{{"output", a.output}, {"format", format}, {"bytes", made->bytes}};
+    nlohmann::ordered_json result{{"output", a.output}, {"format", format.name}, {"bytes", made->bytes}};
     result.update(nlohmann::ordered_json::parse(made->report_json));
     print_result(std::move(result), opened->notes, common);
   }

@@ -2,8 +2,18 @@
 #include <CLI/CLI.hpp>
 
 #include "compiler/cli/define.h"
+#include "exporters/formats.h"
 
 namespace orbc::cli {
+namespace {
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const auto& format : exporters::export_formats()) names.emplace_back(format.name);
+  return names;
+}
+
+}  // namespace
 
 void define_compile(Program& program) {
   const auto arguments = std::make_shared<CompileArguments>();
@@ -11,8 +21,8 @@ void define_compile(Program& program) {
   CLI::App* c = program.app.add_subcommand("compile", "Unfold the mirrors, bend every copy for the eye, and write a file for a renderer");
   add_scene(*c, a.scene);
   c->add_option("-o,--output", a.output, "Where to write; - for standard output")->type_name("FILE");
-  c->add_option("-f,--format", a.format, "pov, glb, gltf or svg (default: by the ending of the output)")
-      ->check(CLI::IsMember({"pov", "glb", "gltf", "svg"}))
+  c->add_option("-f,--format", a.format, exporters::export_format_names("") + " (default: by the ending of the output)")
+      ->check(CLI::IsMember(format_names()))
       ->type_name("FORMAT");
   c->add_option("--view", a.view, "eye (for straight rays from the camera) or disk (the conformal chart, seen from anywhere)")
       ->capture_default_str()

@@ -19,7 +19,7 @@ struct Exported {
 
 /// Compiles an opened scene and writes the files of a renderer: pov, glb or gltf, to `arguments.output`.
 /// Diagnostics: those of the driver; gltf.no-exr; among the notes gltf.native-lights-shared. Printed while it works: cli.large-export.
-[[nodiscard]] Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& arguments, const std::string& format,
+[[nodiscard]] Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& arguments, const std::string& format_name,
                                             const Common& common);
 
 }  // namespace orbc::cli

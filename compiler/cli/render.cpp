@@ -18,6 +18,7 @@
 #include "compiler/image_io/decode.h"
 #include "compiler/image_io/exr.h"
 #include "compiler/render/indirect.h"
+#include "exporters/formats.h"
 
 namespace orbc::cli {
 namespace {
@@ -113,7 +114,7 @@ Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, con
   const int side = a.engine == "povray" ? side_of(a.samples) : 1;
   const TemporaryFolder folder;
   CompileArguments exported = a.compile;
-  const std::string format = a.engine == "povray" ? "pov" : "glb";
+  const std::string format(exporters::find_format_of_engine(a.engine)->name);
   exported.output = (folder.path() / ("scene." + format)).string();
   exported.report.clear();
   Drawn drawn;
