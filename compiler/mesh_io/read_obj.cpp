@@ -319,6 +319,19 @@ void add_uv(ObjData& data) {
   for (const auto uv : data.corner_uv) data.soup.corner_uv.push_back(uv == kNoUv ? std::array<float, 2>{0, 1} : data.uv[uv]);
 }
 
+/// The program that wrote the file, by the comments at its beginning, if it is one that turns y up; else "".
+std::string y_up_exporter(std::string_view text) {
+  constexpr std::size_t kMaxHeadBytes = 2000;
+  Tokens head(text.substr(0, kMaxHeadBytes));
+  while (!head.at_end()) {
+    const auto line = head.rest_of_line();
+    if (!line.empty() && line.front() != '#') break;
+    for (const char* program : {"Blender", "ZBrush", "CINEMA 4D", "Maya", "Wings3D"})
+      if (line.find(program) != line.npos) return program;
+  }
+  return "";
+}
+
 }  // namespace
 
 Result<PolygonSoup> read_obj(std::string_view bytes, const ReadContext& context) {
@@ -328,6 +341,11 @@ Result<PolygonSoup> read_obj(std::string_view bytes, const ReadContext& context)
   settle_colors(*data);
   add_uv(*data);
   add_materials(*data, context);
+  if (const auto program = y_up_exporter(decoded.text()); !program.empty()) {
+    data->soup.warnings.push_back(
+        make_note("mesh.y-up", fmt::format("{}: {} writes OBJ files with y up unless it is told otherwise", context.name, program),
+                  "if it lies on its back, say `up: y`"));
+  }
   if (data->skipped > 0) {
     data->soup.warnings.push_back(
         make_note("mesh.skipped-faces",

@@ -196,7 +196,7 @@ void build_shell(Builder& builder, const ClippedMirrors& mirrors) {
 
 // ---- objects ----------------------------------------------------------------------------------------------------------------
 
-const mesh::Mesh* load(Builder& builder, const scene::Located<std::string>& path) {
+const mesh::Mesh* load(Builder& builder, const scene::Located<std::string>& path, scene::Axis up) {
   const std::string file = builder.normal_path(path.value);
   const auto known = builder.mesh_of_path.find(file);
   if (known != builder.mesh_of_path.end()) return known->second.triangles.empty() ? nullptr : &known->second;
@@ -209,7 +209,9 @@ const mesh::Mesh* load(Builder& builder, const scene::Located<std::string>& path
   mesh = std::move(loaded->mesh);
   Diagnostics notes = std::move(loaded->warnings);
   for (Diagnostic& d : mesh::report_warnings(mesh::analyse(mesh), path.value)) notes.push_back(std::move(d));
-  for (Diagnostic& d : located(std::move(notes), path.span)) builder.warnings.push_back(std::move(d));
+  for (Diagnostic& d : located(std::move(notes), path.span)) {
+    if (d.code != "mesh.y-up" || up == scene::Axis::plus_z) builder.warnings.push_back(std::move(d));
+  }
   return &mesh;
 }
 
@@ -325,7 +327,7 @@ void build_object(Builder& builder, const scene::Object& object) {
   if (const auto* beam = std::get_if<scene::BarSpec>(&object.shape)) return build_beam(builder, object, *beam);
   mesh::Mesh own;
   const mesh::Mesh* mesh = &own;
-  if (const auto* file = std::get_if<scene::MeshFile>(&object.shape)) mesh = load(builder, file->path);
+  if (const auto* file = std::get_if<scene::MeshFile>(&object.shape)) mesh = load(builder, file->path, object.up);
   else own = primitive(object);
   if (!mesh) return;
   Result<PlacedMesh> placed = place_object(*mesh, object, builder.room, builder.scene.room.height, builder.options.embed);

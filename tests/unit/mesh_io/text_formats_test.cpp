@@ -177,8 +177,8 @@ TEST_CASE("an OBJ may name vertices before they come", "[mesh_io]") {
 
 TEST_CASE("a bridge makes a hole in a polygon, and long polygons are cut inside of them", "[mesh_io]") {
   const auto frame = loaded_from(Format::obj,
-                          "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\n"
-                          "f 1 2 3 4 1 5 6 7 8 5\n");
+                                 "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\n"
+                                 "f 1 2 3 4 1 5 6 7 8 5\n");
   CHECK(frame.mesh.triangles.size() == 8);
   CHECK(mesh::analyse(frame.mesh).area == Approx(12));
   for (const int points : {150, 2000, 50'000}) {
@@ -283,6 +283,11 @@ TEST_CASE("a mesh may have thousands of materials", "[mesh_io]") {
   CHECK(loaded->warnings.empty());
   CHECK(loaded->mesh.materials.size() == 3000);
   CHECK(loaded->mesh.triangle_material.back() == 2999);
+}
+
+TEST_CASE("an OBJ by a program that turns y up says so", "[mesh_io]") {
+  CHECK(warns(loaded_from(Format::obj, "# Blender 3.4.1\n# www.blender.org\n" + tetra_obj()), "mesh.y-up", "Blender"));
+  CHECK(loaded_from(Format::obj, tetra_obj()).warnings.empty());
 }
 
 TEST_CASE("decimal commas and foreign formats get a hint", "[mesh_io]") {
