@@ -15,11 +15,11 @@ bool is_on_axis(const Refinement& refinement, std::uint32_t corner) { return ref
 
 /// The vertex on the circle at the end of an edge from corner `from` to the corner `end` on the axis.
 std::uint32_t circle_vertex(Refinement& refinement, const TornMap& map, std::uint32_t edge, std::uint32_t from, std::uint32_t end) {
-  if (const auto known = refinement.edge(edge).circle_vertex) return *known;
+  if (const auto known = refinement.circle_vertex(edge)) return *known;
   Corner c = refinement.corner(end);
   c.image = map.image_towards(c, refinement.corner(from));
   const std::uint32_t vertex = refinement.add_corner(c);
-  refinement.edge(edge).circle_vertex = vertex;
+  refinement.set_circle_vertex(edge, vertex);
   return vertex;
 }
 
@@ -62,7 +62,7 @@ std::uint32_t Refinement::add_corner(const Corner& corner) {
 }
 
 std::uint32_t Refinement::add_edge(std::uint32_t a, std::uint32_t b) {
-  edges_.push_back({a, b, {}, {}, false});
+  edges_.push_back({a, b, {}, false});
   return static_cast<std::uint32_t>(edges_.size() - 1);
 }
 
@@ -76,6 +76,12 @@ std::uint32_t Refinement::split_edge(std::uint32_t edge, std::uint32_t midpoint)
 void Refinement::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   triangles_.push_back({a, b, c});
   is_full_ |= triangles_.size() > max_triangles_;
+}
+
+std::optional<std::uint32_t> Refinement::circle_vertex(std::uint32_t edge) const {
+  const auto known = circle_vertices_.find(edge);
+  if (known == circle_vertices_.end()) return std::nullopt;
+  return known->second;
 }
 
 std::uint32_t Refinement::half(std::uint32_t edge, std::uint32_t end) const {
@@ -102,10 +108,10 @@ void add_face_at_axis(Refinement& refinement, const TornMap& map, const Face& gi
   while (!is_on_axis(refinement, face.corners[2])) face = rotated(face);
   const auto& [a, b, end] = face.corners;
   const std::uint32_t b_end = circle_vertex(refinement, map, face.edges[1], b, end);
-  if (!refinement.edge(face.edges[2]).circle_vertex) {
+  if (!refinement.circle_vertex(face.edges[2])) {
     // Of an upright face, or nearly, both edges end in one vertex.
     const auto off = map.image_towards(refinement.corner(end), refinement.corner(a)) - refinement.corner(b_end).image;
-    if (length(off) < kSameVertex) refinement.edge(face.edges[2]).circle_vertex = b_end;
+    if (length(off) < kSameVertex) refinement.set_circle_vertex(face.edges[2], b_end);
   }
   const std::uint32_t a_end = circle_vertex(refinement, map, face.edges[2], a, end);
   refinement.add_triangle(a, b, b_end);

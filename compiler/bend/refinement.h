@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,8 +17,7 @@ struct Edge {
   };
   std::uint32_t a = 0, b = 0;
   std::optional<Split> split;
-  std::optional<std::uint32_t> circle_vertex;  ///< one end lies on an axis: the vertex on the circle that stands for it
-  bool far_within_tolerance = false;           ///< EdgeVerdict
+  bool far_within_tolerance = false;  ///< EdgeVerdict
 };
 
 /// A triangle: edge k joins corners k and k + 1.
@@ -47,6 +47,9 @@ class Refinement {
   [[nodiscard]] std::vector<mesh::Triangle> take_triangles() { return std::move(triangles_); }
   [[nodiscard]] const Edge& edge(std::uint32_t i) const { return edges_[i]; }
   [[nodiscard]] Edge& edge(std::uint32_t i) { return edges_[i]; }
+  /// Of an edge whose one end lies on an axis: the vertex on the circle that stands for this end. Nothing until it is set.
+  [[nodiscard]] std::optional<std::uint32_t> circle_vertex(std::uint32_t edge) const;
+  void set_circle_vertex(std::uint32_t edge, std::uint32_t vertex) { circle_vertices_[edge] = vertex; }
   /// The half of a split edge at one of its ends.
   [[nodiscard]] std::uint32_t half(std::uint32_t edge, std::uint32_t end) const;
   [[nodiscard]] std::uint32_t midpoint(std::uint32_t edge) const { return edges_[edge].split->midpoint; }
@@ -58,6 +61,7 @@ class Refinement {
   bool is_full_ = false;
   std::vector<Corner> corners_;
   std::vector<Edge> edges_;
+  std::map<std::uint32_t, std::uint32_t> circle_vertices_;  // by edge; few edges have one
   std::vector<mesh::Triangle> triangles_;
 };
 

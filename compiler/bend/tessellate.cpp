@@ -57,6 +57,7 @@ class Splitter {
     for (std::size_t i = 0; i < mesh.triangles.size() && !refinement_.is_full(); ++i)
       split_face({mesh.triangles[i], part_.triangle_edges[i]}, 0);
     Tessellation result;
+    result.vertices.reserve(refinement_.corners().size() - mesh.floor.size());
     for (std::size_t i = mesh.floor.size(); i < refinement_.corners().size(); ++i) {
       const Corner& c = refinement_.corners()[i];
       result.vertices.push_back({c.v, c.z, c.uv, c.image, c.axis != Axis::none});
