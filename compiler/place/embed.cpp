@@ -148,37 +148,45 @@ bool is_clearly_inside(const room::Room& room, const Point& x) {
   return true;
 }
 
+/// An object that is to stand in a room.
+struct Standing {
+  const mesh::Mesh& flat;           ///< the normalised mesh
+  const scene::Object& object;
+  const room::Room& room;
+  double height = 1;                ///< of the room
+};
+
 struct ScaledOverhang {
   Overhang wall{0, 0};
   double above_ceiling = 0;
   [[nodiscard]] bool inside() const { return wall.distance <= 0 && above_ceiling <= 0; }
 };
 
-// The overhang of an object scaled by `factor` about the foot of its axis; measured, for hints.
-ScaledOverhang overhang_at_scale(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height,
-                                 const Point& at, double z, double factor, std::size_t stride) {
+// The overhang of an object at `at`, scaled by `factor` about the foot of its axis; measured at every `stride`-th vertex, for hints.
+ScaledOverhang overhang_at_scale(const Standing& standing, const geometry::Position& at, double factor, std::size_t stride) {
+  const auto& [flat, object, room, height] = standing;
   const geometry::Isometry room_from_object =
-      geometry::translation_to(room.space, at) * geometry::rotation(room.space, object.turn.radians);
+      geometry::translation_to(room.space, at.floor) * geometry::rotation(room.space, object.turn.radians);
   ScaledOverhang worst;
   for (std::size_t i = 0; i < flat.positions.size(); i += stride) {
     const Vector3 p = factor * flat.positions[i];
     if (!in_chart(room.space, object.embedding, p)) return {{0, 1e9}, 0};
     const Overhang over = overhang(room, room_from_object * embedded(room.space, object.embedding, p));
     if (over.distance > worst.wall.distance) worst.wall = over;
-    worst.above_ceiling = std::fmax(worst.above_ceiling, z + p.z - height);
+    worst.above_ceiling = std::fmax(worst.above_ceiling, at.z + p.z - height);
   }
   return worst;
 }
 
-std::string fitting_size_hint(const mesh::Mesh& flat, const scene::Object& object, const room::Room& room, double height, const Point& at,
-                         double z) {
+std::string fitting_size_hint(const Standing& standing, const geometry::Position& at) {
+  const mesh::Mesh& flat = standing.flat;
   const std::size_t stride = flat.positions.size() / 20000 + 1;
-  const auto fits = [&](const Point& place, double level, double factor) {
-    return overhang_at_scale(flat, object, room, height, place, level, factor, stride).inside();
+  const auto fits = [&](const geometry::Position& place, double factor) {
+    return overhang_at_scale(standing, place, factor, stride).inside();
   };
-  const auto largest = [&](const Point& place, double level) {
+  const auto largest = [&](const geometry::Position& place) {
     double low = 0, high = 1;
-    for (int i = 0; i < 20; ++i) (fits(place, level, 0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    for (int i = 0; i < 20; ++i) (fits(place, 0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
     return low;
   };
   double low[2] = {0, 0}, high[2] = {0, 0};
@@ -191,18 +199,18 @@ std::string fitting_size_hint(const mesh::Mesh& flat, const scene::Object& objec
   const int axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
   // A little less than the largest size that fits, in three digits.
   const auto size = [&](double factor) {
-    const double true_size = embedded_length(room.space, object.embedding, factor * low[axis], factor * high[axis]),
+    const double true_size = embedded_length(standing.room.space, standing.object.embedding, factor * low[axis], factor * high[axis]),
                  digits = math::pow(10, 2 - std::floor(math::log10(true_size)));
     return std::floor(0.998 * true_size * digits) / digits;
   };
-  const double here = largest(at, z);
+  const double here = largest(at);
   if (here > 0.2) return fmt::format("`size: {:.3g}` fits here", size(here));
-  if (fits({}, 0, 1)) return "it fits at the centre of the room";
-  return fmt::format("`size: {:.3g}` fits at the centre of the room", size(largest({}, 0)));
+  if (fits({}, 1)) return "it fits at the centre of the room";
+  return fmt::format("`size: {:.3g}` fits at the centre of the room", size(largest({})));
 }
 
-std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh& flat, const scene::Object& object, const room::Room& room,
-                                       double height, const Point& at, double z) {
+std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const Standing& standing, const geometry::Position& at) {
+  const auto& [flat, object, room, height] = standing;
   Overhang worst{0, 0};
   double above = 0;
   bool outside = false;
@@ -217,7 +225,7 @@ std::optional<Diagnostic> check_inside(const PlacedMesh& mesh, const mesh::Mesh&
   const std::string where = outside && worst.distance >= above ? fmt::format("{} beyond wall {}", to_text(worst.distance), worst.wall + 1)
                                                                : fmt::format("{} above the ceiling", to_text(above));
   return make_error("place.object-outside-room", fmt::format("{} reaches {}", object.name.empty() ? "this object" : object.name, where),
-                    fitting_size_hint(flat, object, room, height, at, z),
+                    fitting_size_hint(standing, at),
                     object.size_span.source    ? object.size_span
                     : object.place.span.source ? object.place.span
                                                : object.span);
@@ -301,7 +309,7 @@ Result<PlacedMesh> place_object(const mesh::Mesh& mesh, const scene::Object& obj
     const double z = at->z + p.z;
     placed.z.push_back(z > height && z < height * (1 + 1e-14) ? height : z);
   }
-  if (auto error = check_inside(placed, flat, object, room, height, at->floor, at->z)) return located({*error}, object.span);
+  if (auto error = check_inside(placed, {flat, object, room, height}, *at)) return located({*error}, object.span);
   const Pose pose(object);
   for (Vector3& p : flat.positions) p = pose.unrotated(p);
   placed.pattern_position = std::move(flat.positions);

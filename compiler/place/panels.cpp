@@ -169,9 +169,20 @@ std::vector<double> with_steps(const std::vector<double>& breaks, double step) {
   return fine;
 }
 
-Result<WallGrid> wall_grid(const room::Room& room, int wall, double height, const scene::Material& material,
-                           const std::vector<PlacedMirror>& mirrors, SharedWallPoints& points, HeightIndex& heights,
-                           const PanelOptions& options) {
+/// A wall that is to be cut into a grid.
+struct GridWall {
+  const room::Room& room;
+  int wall = 0;                     ///< from 0
+  double height = 1;                ///< of the room
+  const scene::Material& material;
+};
+
+Result<WallGrid> wall_grid(const GridWall& grid_wall, const std::vector<PlacedMirror>& mirrors, SharedWallPoints& points,
+                           HeightIndex& heights, const PanelOptions& options) {
+  const room::Room& room = grid_wall.room;
+  const scene::Material& material = grid_wall.material;
+  const int wall = grid_wall.wall;
+  const double height = grid_wall.height;
   const double length = room.walls[wall].length, cell = material.cell;
   std::set<double> s(points.outline_keys().begin(), points.outline_keys().end()), z{heights.key(0), heights.key(height)};
   for (const PlacedMirror& mirror : mirrors) {
@@ -296,7 +307,7 @@ Result<std::vector<PlacedMesh>> make_panels(const room::Room& room, double heigh
   std::vector<WallGrid> grids;
   std::vector<BorderVertices> shared;
   for (std::size_t i = 0; i < n; ++i) {
-    Result<WallGrid> grid = wall_grid(room, static_cast<int>(i), height, shell.walls[i], mirrors, wall_points[i], heights, options);
+    Result<WallGrid> grid = wall_grid({room, static_cast<int>(i), height, shell.walls[i]}, mirrors, wall_points[i], heights, options);
     if (!grid) return std::move(grid).error();
     shared.push_back(border_vertices(*grid));
     grids.push_back(*std::move(grid));

@@ -77,10 +77,8 @@ void snap_to_edge(const SharedEdge& edge, PlacedMesh& mesh, PointsByParameter& p
   }
 }
 
-// Adds the vertex `at` on the triangle edge from a to b. Makes: its index.
-std::uint32_t insert(const SharedEdge& edge, PlacedMesh& mesh, const Position& at, std::uint32_t a, std::uint32_t b,
-                     const EdgeInterval& interval, double p) {
-  const auto t = static_cast<float>(edge.affine_coordinate(interval.from, interval.to, p));
+// Adds the vertex `at`, which lies at (1−t)·a + t·b on a triangle edge. Makes: its index.
+std::uint32_t insert(PlacedMesh& mesh, const Position& at, std::uint32_t a, std::uint32_t b, float t) {
   mesh.floor.push_back(at.floor);
   mesh.z.push_back(at.z);
   if (!mesh.uv.empty()) mesh.uv.push_back({(1 - t) * mesh.uv[a][0] + t * mesh.uv[b][0], (1 - t) * mesh.uv[a][1] + t * mesh.uv[b][1]});
@@ -109,7 +107,8 @@ void divide(const SharedEdge& edge, PlacedMesh& mesh, const PointsByParameter& p
           between.emplace(at->first + shift, at->second);
         if (edge.period() == 0) break;
       }
-      for (const auto& [p, at] : between) border.push_back(insert(edge, mesh, at, a, b, interval, p));
+      for (const auto& [p, at] : between)
+        border.push_back(insert(mesh, at, a, b, static_cast<float>(edge.affine_coordinate(interval.from, interval.to, p))));
       if (interval.from > interval.to) border = {border.rbegin(), border.rend()};
       border.insert(border.begin(), a);
       border.push_back(b);

@@ -43,11 +43,16 @@ Polygons triangle_polygons(const PlacedMesh& mesh) {
   return polygons;
 }
 
+struct CutOptions {
+  geometry::Space space = geometry::Space::euclidean;
+  int axis = 0;                     ///< of uv or pattern_position; fixes the sides of the cuts
+  std::size_t max_pieces = 0;
+};
+
 // Splits polygons where the function `at` of the vertices passes a whole number. `set(v, n)` sets it to exactly n at a new vertex. Stops
 // when there are more than `max_pieces` polygons.
 template <class At, class Set>
-Polygons cut_at_whole_numbers(geometry::Space space, PlacedMesh& mesh, Polygons polygons, int axis, std::size_t max_pieces, const At& at,
-                            const Set& set) {
+Polygons cut_at_whole_numbers(const CutOptions& options, PlacedMesh& mesh, Polygons polygons, const At& at, const Set& set) {
   // Polygons wait in the slab where they begin, so that a line splits only those that reach it from below.
   std::map<int, Polygons> waiting;
   for (PolygonMesh::Polygon& polygon : polygons) {
@@ -70,14 +75,14 @@ Polygons cut_at_whole_numbers(geometry::Space space, PlacedMesh& mesh, Polygons 
       const double v = at(i) - line;
       return std::fabs(v) <= 1e-6 * std::fmax(1, std::fabs(line)) ? 0.0 : v;
     };
-    SplitResult split = split_by(active, -1 - 3 * (line & 0xffff) - axis, value, [&](std::uint32_t a, std::uint32_t b, double t) {
-      const std::uint32_t made = interpolated(space, mesh, a, b, t);
+    SplitResult split = split_by(active, -1 - 3 * (line & 0xffff) - options.axis, value, [&](std::uint32_t a, std::uint32_t b, double t) {
+      const std::uint32_t made = interpolated(options.space, mesh, a, b, t);
       set(made, line);
       return made;
     });
     append(done, split.right);
     active = std::move(split.left);
-    if (done.size() + active.size() > max_pieces) {
+    if (done.size() + active.size() > options.max_pieces) {
       append(done, active);
       return done;
     }
@@ -125,7 +130,7 @@ Result<PlacedMesh> cut_at_uv_repeats(geometry::Space space, PlacedMesh mesh, std
   Polygons polygons = triangle_polygons(mesh);
   for (int axis = 0; axis < 2; ++axis) {
     polygons = cut_at_whole_numbers(
-        space, mesh, std::move(polygons), axis, max_triangles, [&](std::uint32_t v) { return static_cast<double>(mesh.uv[v][axis]); },
+        {space, axis, max_triangles}, mesh, std::move(polygons), [&](std::uint32_t v) { return static_cast<double>(mesh.uv[v][axis]); },
         [&](std::uint32_t v, int line) { mesh.uv[v][axis] = static_cast<float>(line); });
     if (polygons.size() > max_triangles)
       return make_error("place.too-many-repeats",
@@ -174,7 +179,7 @@ Result<PlacedMesh> checkered(geometry::Space space, PlacedMesh mesh, double cell
       high = std::fmax(high, at(v));
     }
     if (high - low < 10'000)
-      polygons = cut_at_whole_numbers(space, mesh, std::move(polygons), axis, max_triangles, at,
+      polygons = cut_at_whole_numbers({space, axis, max_triangles}, mesh, std::move(polygons), at,
                                     [&](std::uint32_t v, int line) { mesh.pattern_position[v].*kAxes[axis] = line * cell; });
     if (high - low >= 10'000 || polygons.size() > max_triangles)
       return make_error("place.too-many-cells",

@@ -226,9 +226,16 @@ Wall merge_wall_entries(const WallEntry& all, const WallEntry* own, bool end) {
   return wall;
 }
 
-void check_wall(Reader& reader, const Node* own, const WallEntry* entry, const Wall& wall, const RoomFacts& facts, int number,
-                double height) {
-  if (!own || own->kind != NodeKind::map) return;
+/// The entry of one wall in the file.
+struct OwnEntry {
+  const Node* node = nullptr;
+  WallEntry entry;
+};
+
+void check_wall(Reader& reader, const OwnEntry& own_entry, const Wall& wall, const RoomFacts& facts, int number, double height) {
+  const Node* own = own_entry.node;
+  const WallEntry* entry = &own_entry.entry;
+  if (own->kind != NodeKind::map) return;
   if (is_end_wall(facts.orbifold, number) && entry->mirrors && !entry->mirrors->empty()) {
     const bool half = notation::is_half_strip(facts.orbifold);
     reader.error("scene.end-wall-mirror", own->span,
@@ -246,7 +253,7 @@ void check_wall(Reader& reader, const Node* own, const WallEntry* entry, const W
 
 std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& facts, double height) {
   WallEntry all;
-  std::map<int, std::pair<const Node*, WallEntry>> own;
+  std::map<int, OwnEntry> own;
   if (node && node->kind != NodeKind::map)
     reader.wrong_type(*node, "`walls`", "a map", "its keys are `all` and wall numbers: walls: {all: {…}, 2: {…}}");
   else if (node) {
@@ -262,10 +269,9 @@ std::vector<Wall> read_walls(Reader& reader, const Node* node, const RoomFacts& 
   std::vector<Wall> walls;
   for (int number = 1; number <= facts.walls; ++number) {
     const auto found = own.find(number);
-    const Node* own_node = found == own.end() ? nullptr : found->second.first;
-    const WallEntry* entry = own_node ? &found->second.second : nullptr;
+    const WallEntry* entry = found == own.end() ? nullptr : &found->second.entry;
     walls.push_back(merge_wall_entries(all, entry, is_end_wall(facts.orbifold, number)));
-    check_wall(reader, own_node, entry, walls.back(), facts, number, height);
+    if (found != own.end()) check_wall(reader, found->second, walls.back(), facts, number, height);
   }
   if (all.material && facts.walls > 0 && std::all_of(walls.begin(), walls.end(), is_hidden_by_mirror))
     reader.warning("scene.no-effect", all.material->span, "nothing is seen of the material of the walls: mirrors cover all of them",
