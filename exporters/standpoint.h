@@ -17,7 +17,7 @@ struct Standpoint {
 /// Formula: the chart map z ↦ (az + b)/(−κ b̄ z + ā) has the derivative 1/ā² at 0, so directions turn by arg a².
 [[nodiscard]] inline Standpoint standpoint(const driver::Product& product) {
   const place::Camera& eye = product.eye;
-  if (!product.flat_view) return {{0, 0, product.scale * eye.z}, eye.forward, eye.right, eye.up};
+  if (!product.disk_view) return {{0, 0, product.scale * eye.z}, eye.forward, eye.right, eye.up};
   const geometry::Isometry& map = eye.room_from_eye;
   const std::complex<double> at = geometry::disk_from_point(map.space, map * geometry::Point());
   const std::complex<double> turn = map.a * map.a / std::norm(map.a);

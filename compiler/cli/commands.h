@@ -83,7 +83,7 @@ struct CompileArguments {
   bool highlights = true;           ///< of glossy and metal surfaces, baked for the eye
   int max_atlas = 16384;            ///< pixels a side
   std::string model = "disk";       ///< svg: disk, klein, plane
-  std::string colour = "parity";    ///< svg: parity, length
+  std::string color = "parity";    ///< svg: parity, length
   bool plan = false;                ///< only say what it would take
 };
 struct RenderArguments {

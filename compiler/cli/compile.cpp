@@ -11,9 +11,10 @@
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
-#include "compiler/driver/native.h"
+#include "compiler/driver/compile.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/unlit.h"
+#include "compiler/native_lights/split.h"
 #include "exporters/formats.h"
 #include "exporters/svg/write_svg.h"
 
@@ -50,13 +51,13 @@ driver::Tiling::Model model_of(const std::string& name) {
   return name == "klein" ? driver::Tiling::Model::klein : name == "plane" ? driver::Tiling::Model::plane : driver::Tiling::Model::disk;
 }
 
-int write_tiling(const driver::Opened& opened, const CompileArguments& a, const Common& common) {
+int write_tiling(const driver::LoadedScene& loaded, const CompileArguments& a, const Common& common) {
   const auto tiling =
-      driver::tile(opened, model_of(a.model), a.colour == "length" ? driver::Tiling::Colouring::length : driver::Tiling::Colouring::parity);
+      driver::tile(loaded, model_of(a.model), a.color == "length" ? driver::Tiling::Coloring::length : driver::Tiling::Coloring::parity);
   if (!tiling) return print(tiling.error(), common), kSceneWrong;
   const std::uint64_t bytes = write_files(svg::write_svg(*tiling), a.output);
   print_result({{"output", a.output}, {"format", "svg"}, {"bytes", bytes}, {"orbifold", tiling->title}, {"copies", tiling->copies.size()}},
-               opened.notes, common);
+               loaded.notes, common);
   if (!common.quiet) fmt::print(stderr, "{}: {} copies of {}\n", shown(a.output), tiling->copies.size(), tiling->title);
   return kDone;
 }
@@ -87,10 +88,8 @@ driver::CompileOptions compile_options(const CompileArguments& a) {
   options.bend.message_factor = driver::kToleranceShares;
   if (a.max_triangles && options.bend.view == bend::View::eye) options.budget = *a.max_triangles;
   else if (a.max_triangles) options.bend.max_triangles = *a.max_triangles;
-  options.levels = !a.no_lod;
   options.by_object = a.nodes_per_object;
-  options.paint.highlights = a.highlights;
-  options.paint.max_side = a.max_atlas;
+  options.highlights = a.highlights;
   options.max_memory = parse_bytes(a.max_memory);
   return options;
 }
@@ -126,11 +125,11 @@ void warn_of_size(const cover::Plan& plan, const exporters::ExportFormat& format
   append(warnings, warning);
 }
 
-int write_plan(const driver::Opened& opened, const CompileArguments& a, const Common& common) {
-  const auto plan = driver::plan(opened, compile_options(a), driver::parallel_executor(common.threads, &interrupted()));
+int write_plan(const driver::PreparedScene& scene, const CompileArguments& a, const Common& common) {
+  const auto plan = driver::plan(scene, scene.loaded().eye, compile_options(a), driver::parallel_executor(common.threads, &interrupted()));
   if (!plan) return print(plan.error(), common), kSceneWrong;
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(driver::plan_json(*plan));
-  const driver::Amount amount = amount_of(*plan, driver::lit_natively(opened.scene));
+  const driver::Amount amount = amount_of(*plan, native_lights::uses_native_lights(scene.scene()));
   json["pov_bytes"] = exporters::find_export_format("pov")->estimated_bytes(amount);
   json["gltf_bytes"] = exporters::find_export_format("gltf")->estimated_bytes(amount);
   write_output("-", json.dump(2) + "\n");
@@ -146,22 +145,29 @@ void refuse_what_cannot_be(const CompileArguments& a, const exporters::ExportFor
 
 }  // namespace
 
-Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& a, const std::string& format_name,
+driver::PrepareOptions prepare_options(const CompileArguments& a) {
+  driver::PrepareOptions options;
+  options.lods = !a.no_lod && a.view != "disk";  // the disk is seen from anywhere: it shows everything in full detail
+  options.max_atlas_side = a.max_atlas;
+  return options;
+}
+
+Result<Exported> export_scene(const driver::PreparedScene& scene, const CompileArguments& a, const std::string& format_name,
                               const Common& common) {
   const exporters::ExportFormat& format = *exporters::find_export_format(format_name);
-  if (opened.scene.bake.atlas == scene::AtlasFormat::exr && !format.holds_exr)
+  if (scene.scene().bake.atlas == scene::AtlasFormat::exr && !format.holds_exr)
     return make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR", "use `atlas: 16` (--atlas 16), or write .pov",
-                      opened.scene.span);
+                      scene.scene().span);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const Executor executor = driver::parallel_executor(common.threads, &interrupted());
   driver::CompileOptions options = compile_options(a);
   Diagnostics large;
   if (!a.max_triangles || *a.max_triangles > 4'000'000)  // fewer are small
-    options.foresee = [&](const cover::Plan& plan) {
+    options.on_large_plan = [&](const cover::Plan& plan) {
       bar.clear();
-      if (large.empty()) warn_of_size(plan, format, driver::lit_natively(opened.scene), common, large);
+      if (large.empty()) warn_of_size(plan, format, native_lights::uses_native_lights(scene.scene()), common, large);
     };
-  const auto compiled = driver::compile(opened, options, executor, bar.progress());
+  const auto compiled = driver::compile(scene, scene.loaded().eye, options, executor, bar.progress());
   if (!compiled) return compiled.error();
   Exported result{compiled->report, driver::report_json(*compiled), notes_of(*compiled, format), large, 0};
   report(bar.progress(), "writing", 0, 0);
@@ -176,25 +182,26 @@ int compile(const CompileArguments& a, const Common& common) {
   refuse_what_cannot_be(a, format, common);
   check_nodes(a, format);
   (void)compile_options(a);  // mistakes on the command line come before those of the scene
-  auto opened = driver::open_scene(a.scene.scene, overrides_of(a.scene));
-  if (!opened) return print(opened.error(), common), kSceneWrong;
+  auto loaded = driver::load(a.scene.scene, overrides_of(a.scene));
+  if (!loaded) return print(loaded.error(), common), kSceneWrong;
   const unsigned target = a.plan ? kPov | kGltf : !format.write ? kSvg : format.has_nodes ? kGltf : kPov;
-  append(opened->notes, without_effect(common.given, {target, a.plan, a.view == "disk", false, 1}, *opened));
-  print(opened->notes, common);
-  if (a.plan) return write_plan(*opened, a, common);
-  if (!format.write) return write_tiling(*opened, a, common);
-  const Diagnostics unlit = driver::unlit_note(*opened);
+  append(loaded->notes, without_effect(common.given, {target, a.plan, a.view == "disk", false, 1}, *loaded));
+  print(loaded->notes, common);
+  const driver::PreparedScene scene(*loaded, prepare_options(a));
+  if (a.plan) return write_plan(scene, a, common);
+  if (!format.write) return write_tiling(*loaded, a, common);
+  const Diagnostics unlit = driver::unlit_note(*loaded);
   print(unlit, common);
-  append(opened->notes, unlit);
-  const auto made = export_scene(*opened, a, std::string(format.name), common);
+  append(loaded->notes, unlit);
+  const auto made = export_scene(scene, a, std::string(format.name), common);
   if (!made) return print(made.error(), common), kSceneWrong;
   print(made->notes, common);
-  append(opened->notes, made->size_warning);
-  append(opened->notes, made->notes);
+  append(loaded->notes, made->size_warning);
+  append(loaded->notes, made->notes);
   if (common.json) {
     nlohmann::ordered_json result{{"output", a.output}, {"format", format.name}, {"bytes", made->bytes}};
     result.update(nlohmann::ordered_json::parse(made->report_json));
-    print_result(std::move(result), opened->notes, common);
+    print_result(std::move(result), loaded->notes, common);
   }
   const driver::Report& r = made->report;
   if (!common.quiet)

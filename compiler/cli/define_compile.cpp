@@ -37,7 +37,7 @@ void define_compile(Program& program) {
       ->capture_default_str()
       ->check(CLI::IsMember({"disk", "klein", "plane"}))
       ->type_name("MODEL");
-  c->add_option("--colour", a.colour, "SVG: colour the copies by parity or length")
+  c->add_option("--colour", a.color, "SVG: colour the copies by parity or length")
       ->capture_default_str()
       ->check(CLI::IsMember({"parity", "length"}))
       ->type_name("RULE");

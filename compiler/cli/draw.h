@@ -15,8 +15,8 @@ struct Drawn {
   Exported exported;
 };
 
-/// Exports an opened scene into a folder of its own and has POV-Ray or Blender draw it (`arguments.engine`), in the size of the scene.
+/// Exports a scene into a folder of its own and has POV-Ray or Blender draw it (`arguments.engine`), in the size of the scene.
 /// In: `arguments.compile.output` is not looked at. Prints errors, and what exporting has to say.
-[[nodiscard]] Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& arguments, const Common& common);
+[[nodiscard]] Drawn draw_elsewhere(const driver::PreparedScene& scene, const RenderArguments& arguments, const Common& common);
 
 }  // namespace orbc::cli

@@ -15,7 +15,7 @@ constexpr unsigned kExports = kPov | kGltf, kPictures = kTraced | kExports;
 
 struct Situation {
   const Use& use;
-  const driver::Opened& opened;
+  const driver::LoadedScene& loaded;
 };
 
 /// Why something changes nothing although it belongs to the target; nullptr when it does change something.
@@ -29,29 +29,29 @@ const char* with_samples(const Situation& now, unsigned) {
   return now.use.samples > 1 ? "with more than one sample edges are mixed, and only --threshold counts" : nullptr;
 }
 const char* of_flat_rooms(const Situation& now, unsigned) {
-  return now.opened.room->polygon.space == geometry::Space::euclidean ? "in flat rooms all models are the plane itself" : nullptr;
+  return now.loaded.interior->polygon.space == geometry::Space::euclidean ? "in flat rooms all models are the plane itself" : nullptr;
 }
-const char* without_lamps(const Situation& now, unsigned) { return now.opened.scene.lamps.empty() ? "the scene has no lamps" : nullptr; }
+const char* without_lamps(const Situation& now, unsigned) { return now.loaded.scene.lamps.empty() ? "the scene has no lamps" : nullptr; }
 
 bool is_lit(const scene::Scene& scene) { return !scene.lamps.empty() || scene.integrator == scene::Integrator::path; }
 const char* without_light(const Situation& now, unsigned) {
-  return is_lit(now.opened.scene) ? nullptr : "without lamps or `integrator: path` a scene is shown in its plain colours";
+  return is_lit(now.loaded.scene) ? nullptr : "without lamps or `integrator: path` a scene is shown in its plain colours";
 }
 const char* without_paths(const Situation& now, unsigned) {
-  return now.opened.scene.integrator == scene::Integrator::path ? nullptr
+  return now.loaded.scene.integrator == scene::Integrator::path ? nullptr
                                                                 : "it belongs to `integrator: path`; without it surfaces pass no light on";
 }
 // How finely light is worked out.
 const char* of_quality(const Situation& now, unsigned target) {
   if (target == kTraced) return without_paths(now, target);
-  return bake::needs_bake(now.opened.scene, *now.opened.room) ? nullptr : "plain colours are exact, nothing is baked";
+  return bake::needs_bake(now.loaded.scene, *now.loaded.interior) ? nullptr : "plain colours are exact, nothing is baked";
 }
 const char* of_highlights(const Situation& now, unsigned target) {
   if (const char* why = of_the_disk(now, target)) return why;
   const auto shiny = [](const place::SurfaceStyle& look) {
     return look.material.kind != scene::MaterialKind::matte && look.material.kind != scene::MaterialKind::emissive;
   };
-  const auto& looks = now.opened.room->styles;
+  const auto& looks = now.loaded.interior->styles;
   if (std::none_of(looks.begin(), looks.end(), shiny)) return "nothing in the scene is glossy, or of metal, mirror or glass";
   return of_quality(now, target);
 }
@@ -123,8 +123,8 @@ const char* why_idle(const Row& row, const Situation& now) {
 
 }  // namespace
 
-Diagnostics without_effect(const std::vector<std::string>& options, const Use& use, const driver::Opened& opened) {
-  const Situation now{use, opened};
+Diagnostics without_effect(const std::vector<std::string>& options, const Use& use, const driver::LoadedScene& loaded) {
+  const Situation now{use, loaded};
   Diagnostics told;
   for (const std::string& option : options) {
     const Row* row = std::find_if(std::begin(kOptions), std::end(kOptions), [&](const Row& r) { return option == r.name; });
@@ -132,7 +132,7 @@ Diagnostics without_effect(const std::vector<std::string>& options, const Use& u
     if (why) told.push_back(make_warning("cli.no-effect", fmt::format("--{} changes nothing here: {}", option, why), "leave it out"));
   }
   if (use.targets == kSvg) return told;  // a scene is written for pictures; its tiling is a by-product
-  for (const scene::GivenKey& key : opened.scene.given_keys) {
+  for (const scene::GivenKey& key : loaded.scene.given_keys) {
     const Row* row = std::find_if(std::begin(kKeys), std::end(kKeys), [&](const Row& r) { return key.path == r.name; });
     const char* why = row == std::end(kKeys) ? nullptr : why_idle(*row, now);
     if (why)

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "compiler/base/diagnostic.h"
-#include "compiler/driver/open.h"
+#include "compiler/driver/load.h"
 
 namespace orbc::cli {
 
@@ -27,6 +27,6 @@ struct Use {
 /// Options of the command line, named without dashes, and keys of the scene that change nothing in what is made: they are told, since
 /// their author expected something of them. One table says of each what it belongs to and when it is idle there (effects.cpp).
 /// Diagnostics: as warnings cli.no-effect and, at its place in the file, scene.no-effect.
-[[nodiscard]] Diagnostics without_effect(const std::vector<std::string>& options, const Use& use, const driver::Opened& opened);
+[[nodiscard]] Diagnostics without_effect(const std::vector<std::string>& options, const Use& use, const driver::LoadedScene& loaded);
 
 }  // namespace orbc::cli

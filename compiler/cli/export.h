@@ -4,7 +4,7 @@
 #include "compiler/base/result.h"
 #include "compiler/cli/commands.h"
 #include "compiler/driver/compile.h"
-#include "compiler/driver/open.h"
+#include "compiler/driver/prepare.h"
 
 namespace orbc::cli {
 
@@ -17,9 +17,12 @@ struct Exported {
   std::uint64_t bytes = 0;          ///< of the main output alone
 };
 
-/// Compiles an opened scene and writes the files of a renderer: pov, glb or gltf, to `arguments.output`.
+/// How scenes are prepared for the exports of a command.
+[[nodiscard]] driver::PrepareOptions prepare_options(const CompileArguments& arguments);
+
+/// Compiles a scene for its own camera and writes the files of a renderer: pov, glb or gltf, to `arguments.output`.
 /// Diagnostics: those of the driver; gltf.no-exr; among the notes gltf.native-lights-shared. Printed while it works: cli.large-export.
-[[nodiscard]] Result<Exported> export_scene(const driver::Opened& opened, const CompileArguments& arguments, const std::string& format_name,
-                                            const Common& common);
+[[nodiscard]] Result<Exported> export_scene(const driver::PreparedScene& scene, const CompileArguments& arguments,
+                                            const std::string& format_name, const Common& common);
 
 }  // namespace orbc::cli

@@ -11,13 +11,13 @@
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
-#include "compiler/driver/compare.h"
 #include "compiler/driver/threads.h"
-#include "compiler/driver/trace.h"
+#include "compiler/driver/trace_film.h"
 #include "compiler/driver/unlit.h"
 #include "compiler/image_io/decode.h"
 #include "compiler/image_io/exr.h"
 #include "compiler/render/indirect.h"
+#include "compiler/verify/compare.h"
 #include "exporters/formats.h"
 
 namespace orbc::cli {
@@ -31,14 +31,13 @@ int side_of(int samples) {
   return side;
 }
 
-std::vector<std::string> drawing_command(const RenderArguments& a, const driver::Opened& opened, const std::string& scene,
+std::vector<std::string> drawing_command(const RenderArguments& a, const place::Camera& eye, const std::string& scene,
                                          const std::string& picture, const Common& common) {
   std::vector<std::string> command;
   if (a.engine == "povray") {
     command = {shipped_script("povray-pipe"), scene, "-o", picture};
     const int side = side_of(a.samples);
-    if (side > 1)
-      command.insert(command.end(), {fmt::format("+W{}", side * opened.eye.width), fmt::format("+H{}", side * opened.eye.height)});
+    if (side > 1) command.insert(command.end(), {fmt::format("+W{}", side * eye.width), fmt::format("+H{}", side * eye.height)});
     if (common.threads > 0) command.push_back(fmt::format("+WT{}", common.threads));
   } else {
     command = {shipped_script("render_blender.py"), scene, "-o", picture, "--samples", std::to_string(a.samples)};
@@ -74,43 +73,45 @@ nlohmann::ordered_json result_of(const RenderArguments& a, PictureFormat format,
           {"width", eye.width},         {"height", eye.height},   {"samples", a.samples}};
 }
 
-int render_elsewhere(const driver::Opened& opened, const RenderArguments& a, PictureFormat format, const Common& common) {
-  const Drawn drawn = draw_elsewhere(opened, a, common);
+int render_elsewhere(const driver::PreparedScene& scene, const RenderArguments& a, PictureFormat format, const Common& common) {
+  const Drawn drawn = draw_elsewhere(scene, a, common);
   if (drawn.code != kDone) return drawn.code;
   write_output(a.compile.output, encoded(drawn.picture, format));
   const driver::Report& r = drawn.exported.report;
-  nlohmann::ordered_json result = result_of(a, format, opened.eye);
+  nlohmann::ordered_json result = result_of(a, format, scene.loaded().eye);
   result.update({{"copies", r.copies}, {"triangles", r.triangles}, {"error_bound_px", r.error_bound_px}});
-  Diagnostics diagnostics = opened.notes;
+  Diagnostics diagnostics = scene.loaded().notes;
   append(diagnostics, drawn.exported.size_warning);
   append(diagnostics, drawn.exported.notes);
   print_result(std::move(result), diagnostics, common);
   if (!common.quiet)
     fmt::print(stderr, "{}: {}x{}, {} samples a pixel, drawn by {} from {} copies, {} triangles, true within {:.3g} px\n",
-               shown(a.compile.output), opened.eye.width, opened.eye.height, a.samples, a.engine, r.copies, r.triangles, r.error_bound_px);
+               shown(a.compile.output), scene.loaded().eye.width, scene.loaded().eye.height, a.samples, a.engine, r.copies, r.triangles,
+               r.error_bound_px);
   return kDone;
 }
 
-int render_here(const driver::Opened& opened, const RenderArguments& a, PictureFormat format, const Common& common) {
+int render_here(const driver::PreparedScene& scene, const RenderArguments& a, PictureFormat format, const Common& common) {
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const render::Film film = driver::trace(opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
+  const render::Film film =
+      driver::trace_film(scene, scene.loaded().eye, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   write_output(a.compile.output, format == PictureFormat::exr
                                      ? image_io::encode_exr(render::to_float_image(film))
-                                     : encoded(render::to_image(film, pass_of(a.pass), opened.scene.exposure), format));
+                                     : encoded(render::to_image(film, pass_of(a.pass), scene.scene().exposure), format));
   bar.clear();
-  nlohmann::ordered_json result = result_of(a, format, opened.eye);
+  nlohmann::ordered_json result = result_of(a, format, scene.loaded().eye);
   result["pass"] = format == PictureFormat::exr ? "all" : a.pass;
-  if (!film.error.empty()) result["noise"] = render::rms_noise(film, opened.scene.exposure);
-  print_result(std::move(result), opened.notes, common);
+  if (!film.error.empty()) result["noise"] = render::rms_noise(film, scene.scene().exposure);
+  print_result(std::move(result), scene.loaded().notes, common);
   if (!common.quiet)
     fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
-               noise_text(film, opened.scene.exposure));
+               noise_text(film, scene.scene().exposure));
   return kDone;
 }
 
 }  // namespace
 
-Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, const Common& common) {
+Drawn draw_elsewhere(const driver::PreparedScene& scene, const RenderArguments& a, const Common& common) {
   const int side = a.engine == "povray" ? side_of(a.samples) : 1;
   const TemporaryFolder folder;
   CompileArguments exported = a.compile;
@@ -119,14 +120,14 @@ Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, con
   exported.report.clear();
   Drawn drawn;
   {
-    auto made = export_scene(opened, exported, format, common);
+    auto made = export_scene(scene, exported, format, common);
     if (!made) return print(made.error(), common), Drawn{kSceneWrong, {}, {}};
     drawn.exported = std::move(made).value();
   }
   print(drawn.exported.notes, common);
   const std::string picture = (folder.path() / "picture.png").string();
   if (!common.quiet && stderr_is_terminal()) fmt::print(stderr, "{} draws ...\n", a.engine);
-  if (const int code = run_program(drawing_command(a, opened, exported.output, picture, common), true); code != 0) {
+  if (const int code = run_program(drawing_command(a, scene.loaded().eye, exported.output, picture, common), true); code != 0) {
     print({make_error("cli.not-drawn", fmt::format("{} did not draw the export (exit code {})", a.engine, code),
                       code == 127 ? "its script could not be started" : "what it says of it stands above")},
           common);
@@ -135,7 +136,7 @@ Drawn draw_elsewhere(const driver::Opened& opened, const RenderArguments& a, con
   // Decoded, since such pictures carry dates: what is written of it is the same for the same scene.
   auto decoded = image_io::load_image(picture, {.max_side = 1 << 20, .max_bytes = std::uint64_t{8} << 30});
   if (!decoded) throw std::runtime_error(fmt::format("cannot read back the picture of {}: {}", a.engine, to_text(decoded.error())));
-  drawn.picture = side == 1 ? std::move(*decoded) : driver::averaged(*decoded, side);
+  drawn.picture = side == 1 ? std::move(*decoded) : verify::box_downsample(*decoded, side);
   return drawn;
 }
 
@@ -147,14 +148,15 @@ int render(const RenderArguments& arguments, const Common& common) {
   a.samples = samples_of(a);
   keep_standard_output_apart(a.compile.output, common);
   if (a.engine == "povray") (void)side_of(a.samples);
-  auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
-  if (!opened) return print(opened.error(), common), kSceneWrong;
+  auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene));
+  if (!loaded) return print(loaded.error(), common), kSceneWrong;
   const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;
-  append(opened->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *opened));
-  if (a.pass == "color") append(opened->notes, driver::unlit_note(*opened));
-  if (here) append(opened->notes, few_lens_samples(*opened, a.samples));
-  print(opened->notes, common);
-  return here ? render_here(*opened, a, format, common) : render_elsewhere(*opened, a, format, common);
+  append(loaded->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *loaded));
+  if (a.pass == "color") append(loaded->notes, driver::unlit_note(*loaded));
+  if (here) append(loaded->notes, few_lens_samples(*loaded, a.samples));
+  print(loaded->notes, common);
+  const driver::PreparedScene scene(*loaded, prepare_options(a.compile));
+  return here ? render_here(scene, a, format, common) : render_elsewhere(scene, a, format, common);
 }
 
 }  // namespace orbc::cli

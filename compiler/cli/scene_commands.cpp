@@ -48,18 +48,18 @@ int check(const CheckArguments& a, const Common& common) {
   scene::Overrides overrides;
   append_set(a.set, overrides);
   for (const std::string& path : a.scenes) {
-    auto opened = driver::open_scene(path, overrides);
-    if (opened) append(opened->notes, without_effect(common.given, {kTraced | kPov | kGltf, false, false, false, 1}, *opened));
-    const Diagnostics& found = opened ? opened->notes : opened.error();
+    auto loaded = driver::load(path, overrides);
+    if (loaded) append(loaded->notes, without_effect(common.given, {kTraced | kPov | kGltf, false, false, false, 1}, *loaded));
+    const Diagnostics& found = loaded ? loaded->notes : loaded.error();
     Common plain = common;
     plain.json = false;
     if (!common.json) print(found, plain);
     all.insert(all.end(), found.begin(), found.end());
-    if (!opened) code = kSceneWrong;
+    if (!loaded) code = kSceneWrong;
     else if (!common.quiet && !common.json)
       fmt::print(stderr, "{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
-                 notation::to_text(opened->scene.orbifold), opened->room->polygon.walls.size(), opened->scene.objects.size(),
-                 opened->scene.lamps.size());
+                 notation::to_text(loaded->scene.orbifold), loaded->interior->polygon.walls.size(), loaded->scene.objects.size(),
+                 loaded->scene.lamps.size());
   }
   if (common.json) write_output("-", fmt::format("{{\"ok\": {}, \"diagnostics\": {}}}\n", code == kDone, to_json(all)));
   return code;

@@ -6,7 +6,7 @@
 
 #include "compiler/base/diagnostic.h"
 #include "compiler/cli/commands.h"
-#include "compiler/driver/open.h"
+#include "compiler/driver/load.h"
 
 namespace orbc::cli {
 

@@ -91,7 +91,7 @@ Result<svg::RoomPicture> picture_of(const SvgArguments& a) {
   picture.look.unit = size.unit;
   picture.look.per_unit = size.per_unit;
   picture.chart = a.model == "klein" ? svg::Chart::klein : a.model == "half-plane" ? svg::Chart::half_plane : svg::Chart::disk;
-  picture.coloring = a.color_by == "length" ? driver::Tiling::Colouring::length : driver::Tiling::Colouring::parity;
+  picture.coloring = a.color_by == "length" ? driver::Tiling::Coloring::length : driver::Tiling::Coloring::parity;
   picture.look.labels = a.labels;
   picture.look.tooltips = a.labels;
   picture.look.cuts = a.cuts;

@@ -14,10 +14,10 @@
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/support.h"
-#include "compiler/driver/compare.h"
 #include "compiler/driver/threads.h"
-#include "compiler/driver/trace.h"
+#include "compiler/driver/trace_film.h"
 #include "compiler/image/image.h"
+#include "compiler/verify/compare.h"
 
 namespace orbc::cli {
 namespace {
@@ -26,23 +26,23 @@ constexpr const char* kEightBits = "pictures of verify have 8 bits";
 
 struct Verdict {
   std::string engine;
-  driver::Comparison comparison;
+  verify::Comparison comparison;
   bool passed = false;
 };
 
-bool passes(const driver::Comparison& c, const VerifyArguments& a) {
+bool passes(const verify::Comparison& c, const VerifyArguments& a) {
   const std::uint64_t good = a.within == 1 ? c.within_1 : a.within == 2 ? c.within_2 : a.within == 4 ? c.within_4 : c.within_8;
-  return driver::share(good, c) >= a.threshold && (a.samples > 1 || driver::share(c.beyond_off_edge, c) <= a.off_edge);
+  return verify::share(good, c) >= a.threshold && (a.samples > 1 || verify::share(c.beyond_off_edge, c) <= a.off_edge);
 }
 
 std::string table(const std::vector<Verdict>& verdicts) {
   std::string text = fmt::format("{:<10}{:>11}{:>11}{:>11}{:>11}{:>9}{:>9}{:>11}{:>11}\n", "against", "<= 1/255", "<= 2/255", "<= 4/255",
                                  "<= 8/255", "mean", "largest", "> 2, edge", "> 2, else");
   for (const Verdict& v : verdicts) {
-    const driver::Comparison& c = v.comparison;
+    const verify::Comparison& c = v.comparison;
     text += fmt::format("{:<10}{:>10.3f}%{:>10.3f}%{:>10.3f}%{:>10.3f}%{:>9.4f}{:>9}{:>11}{:>11}  {}\n", v.engine,
-                        100 * driver::share(c.within_1, c), 100 * driver::share(c.within_2, c), 100 * driver::share(c.within_4, c),
-                        100 * driver::share(c.within_8, c), c.mean, c.largest, c.beyond_on_edge, c.beyond_off_edge,
+                        100 * verify::share(c.within_1, c), 100 * verify::share(c.within_2, c), 100 * verify::share(c.within_4, c),
+                        100 * verify::share(c.within_8, c), c.mean, c.largest, c.beyond_on_edge, c.beyond_off_edge,
                         v.passed ? "agrees" : "DIFFERS");
   }
   return text;
@@ -51,13 +51,13 @@ std::string table(const std::vector<Verdict>& verdicts) {
 nlohmann::ordered_json json(const std::vector<Verdict>& verdicts) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Verdict& v : verdicts) {
-    const driver::Comparison& c = v.comparison;
+    const verify::Comparison& c = v.comparison;
     list.push_back({{"engine", v.engine},
                     {"pixels", c.pixels},
-                    {"within_1", driver::share(c.within_1, c)},
-                    {"within_2", driver::share(c.within_2, c)},
-                    {"within_4", driver::share(c.within_4, c)},
-                    {"within_8", driver::share(c.within_8, c)},
+                    {"within_1", verify::share(c.within_1, c)},
+                    {"within_2", verify::share(c.within_2, c)},
+                    {"within_4", verify::share(c.within_4, c)},
+                    {"within_8", verify::share(c.within_8, c)},
                     {"mean", c.mean},
                     {"largest", c.largest},
                     {"beyond_2_on_edges", c.beyond_on_edge},
@@ -82,7 +82,7 @@ Kept kept(const std::string& name) {
 
 void write_pictures(const VerifyArguments& a, const image::Image& drawn, const image::Image& reference) {
   if (!a.difference.empty())
-    write_output(a.difference, encoded(driver::difference_picture(drawn, reference), picture_format_of(a.difference, false, kEightBits)));
+    write_output(a.difference, encoded(verify::difference_picture(drawn, reference), picture_format_of(a.difference, false, kEightBits)));
   if (a.keep.empty()) return;
   const Kept names = kept(a.keep);
   write_output(names.stem + "-export" + names.ending, encoded(drawn, names.format));
@@ -98,21 +98,24 @@ void refuse_what_cannot_be(const VerifyArguments& a) {
 
 int verify(const VerifyArguments& a, const Common& common) {
   refuse_what_cannot_be(a);
-  auto opened = driver::open_scene(a.compile.scene.scene, overrides_of(a.compile.scene));
-  if (!opened) return print(opened.error(), common), kSceneWrong;
+  auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene));
+  if (!loaded) return print(loaded.error(), common), kSceneWrong;
   const unsigned targets = kTraced | kPov | (a.blender ? unsigned{kGltf} : 0);
-  append(opened->notes, without_effect(common.given, {targets, false, false, false, a.samples}, *opened));
-  append(opened->notes, leave_out_lens(*opened));
-  print(opened->notes, common);
+  append(loaded->notes, without_effect(common.given, {targets, false, false, false, a.samples}, *loaded));
+  append(loaded->notes, leave_out_lens(*loaded));
+  print(loaded->notes, common);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const render::Film film = driver::trace(*opened, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
+  // The two roads are compared at the quality of their best export, whatever quality the scene asks for.
+  const scene::BakeQuality path_quality = loaded->scene.bake.quality;
+  if (a.compile.scene.quality.empty()) loaded->scene.bake.quality = scene::BakeQuality::fine;
+  const driver::PreparedScene scene(*loaded, prepare_options(a.compile));
+  const render::Film film = driver::trace_film(scene, loaded->eye, {a.samples, path_quality},
+                                               driver::parallel_executor(common.threads, &interrupted()), bar.progress());
   bar.clear();
-  const image::Image reference = render::to_image(film, opened->scene.exposure);
-  // Two roads are compared, not how coarsely one of them may be walked.
-  if (a.compile.scene.quality.empty()) opened->scene.bake.quality = scene::BakeQuality::fine;
+  const image::Image reference = render::to_image(film, loaded->scene.exposure);
   std::vector<Verdict> verdicts;
   image::Image drawn;
-  Diagnostics told = opened->notes;
+  Diagnostics told = loaded->notes;
   Common silent = common;
   silent.quiet = true;
   for (const char* engine : {"blender", "povray"}) {  // the difference picture shows POV-Ray's, which is always drawn
@@ -121,13 +124,13 @@ int verify(const VerifyArguments& a, const Common& common) {
     render_arguments.compile = a.compile;
     render_arguments.engine = engine;
     render_arguments.samples = a.samples;
-    Drawn by_engine = draw_elsewhere(*opened, render_arguments, silent);
+    Drawn by_engine = draw_elsewhere(scene, render_arguments, silent);
     if (by_engine.code != kDone) return by_engine.code;
     append(told, by_engine.exported.notes);
     drawn = std::move(by_engine.picture);
     if (drawn.width != reference.width || drawn.height != reference.height)
       throw std::runtime_error("the renderer's picture has another size");
-    Verdict verdict{engine, driver::compare(drawn, reference), false};
+    Verdict verdict{engine, verify::compare(drawn, reference), false};
     verdict.passed = passes(verdict.comparison, a);
     verdicts.push_back(verdict);
   }
@@ -143,7 +146,7 @@ int verify(const VerifyArguments& a, const Common& common) {
                 {"off_edge", a.off_edge},
                 {"pictures", json(verdicts)}},
                told, common);
-  if (!all && !opened->scene.lamps.empty() && !common.quiet)
+  if (!all && !loaded->scene.lamps.empty() && !common.quiet)
     fmt::print(stderr,
                "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.99 "
                "compares them fairly\n");

@@ -220,7 +220,7 @@ class BeamUnfolder {
       if (next.word.size() % 8 == 0) next.cover_from_room = geometry::renormalised(next.cover_from_room);
     }
     // All beams that enter a copy through one wall find it equally large, so it is left out of all of them or of none. What it hides stays
-    // hidden by a panel in the mirrors of that wall (driver/tail.h), and whole copies behind it need no wedge.
+    // hidden by a panel in the mirrors of that wall (cutoff/impostor.h), and whole copies behind it need no wedge.
     if (spec_.min_pixels > 0 && is_culled(size_.of(next.cover_from_room), spec_)) return std::nullopt;
     next.entry = wall;
     return next;

@@ -11,7 +11,7 @@
 namespace orbc::cover {
 
 struct PlanOptions {
-  /// Bound of the memory of all copies, each of kBytesPerCopy. Triangles do not count here (driver/estimate.h).
+  /// Bound of the memory of all copies, each of kBytesPerCopy. Triangles do not count here (lod/estimate.h).
   std::uint64_t max_bytes = std::uint64_t{4} << 30;
 };
 
@@ -21,7 +21,7 @@ constexpr double kBytesPerVertex = 20, kBytesPerTriangle = 12, kBytesPerCopy = 2
 /// Memory that one beam takes while copies are unfolded: the beam, its hit and the copy that results (measured: 480).
 constexpr double kBytesPerBeam = 500;
 
-/// How large a compiled scene will be. `plan` counts every copy with all triangles of the room, none of them split; driver/estimate.h
+/// How large a compiled scene will be. `plan` counts every copy with all triangles of the room, none of them split; lod/estimate.h
 /// estimates how many triangles bending makes.
 struct Plan {
   Integer copies;                                                          ///< exact

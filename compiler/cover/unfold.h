@@ -21,7 +21,7 @@ struct UnfoldOptions {
 /// In:          any convex room. Walls may be plain, and mirrors may cover parts of walls: both hide what lies behind.
 /// Makes:       copies by bounces, then sheet, then word; the room itself first. Memory grows with the number of copies only.
 /// Exact:       words and their number (no floating-point number decides). `min_pixels` compares measured sizes (projected_size.h).
-///              What lies behind a copy below `min_pixels` is left out too, or hidden by a panel in its mirror (driver/tail.h).
+///              What lies behind a copy below `min_pixels` is left out too, or hidden by a panel in its mirror (cutoff/impostor.h).
 /// Diagnostics: cover.too-much beyond `max_copies`, with a max_bounces that fits.
 [[nodiscard]] Result<std::vector<Copy>> unfold(const place::Interior& room, const place::Camera& eye, const scene::CoverSpec& spec,
                                                const UnfoldOptions& options = {});

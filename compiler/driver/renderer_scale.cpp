@@ -16,12 +16,13 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kNear = 1.0 / 64, kComfortable = 1.0 / 32;
-constexpr double kFar = 524288;        // 2^19
-constexpr double kLeastSeen = 1.0 / 512;   // POV-Ray's smallest depth, twice
+constexpr double kMinDistance = 1.0 / 64, kTargetDistance = 1.0 / 32;
+constexpr double kMaxDistance = 524288;            // 2^19
+constexpr double kMinVisibleDistance = 1.0 / 512;  // twice POV-Ray's smallest depth
+constexpr int kMaxExponent = 64;                   // of the scale where the nearest surface touches the eye
 
 Vector3 eye_of(const Product& product) {
-  if (!product.flat_view) return {0, 0, product.eye.z};
+  if (!product.disk_view) return {0, 0, product.eye.z};
   const geometry::Isometry& map = product.eye.room_from_eye;
   const std::complex<double> at = geometry::disk_from_point(map.space, map * geometry::Point());
   return {at.real(), at.imag(), product.eye.z};
@@ -58,13 +59,13 @@ double to_box(const Vector3& a, const Vector3& b, const Vector3& c) {
 
 Distances distances_from_eye(const Product& product) {
   const Vector3 eye = eye_of(product);
-  const auto seen = [&](std::uint32_t i) {
+  const auto from_eye = [&](std::uint32_t i) {
     const auto& p = product.positions[i];
     return Vector3{p[0] - eye.x, p[1] - eye.y, p[2] - eye.z};
   };
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
   for (std::size_t i = 0; i + 2 < product.indices.size(); i += 3) {
-    const Vector3 a = seen(product.indices[i]), b = seen(product.indices[i + 1]), c = seen(product.indices[i + 2]);
+    const Vector3 a = from_eye(product.indices[i]), b = from_eye(product.indices[i + 1]), c = from_eye(product.indices[i + 2]);
     farthest = std::max({farthest, square(a), square(b), square(c)});
     if (to_box(a, b, c) < nearest) nearest = std::min(nearest, to_triangle(a, b, c));
   }
@@ -73,10 +74,10 @@ Distances distances_from_eye(const Product& product) {
 }
 
 double renderer_scale(const Distances& d) {
-  if (!(d.farthest > 0) || (d.nearest >= kNear && d.farthest <= kFar)) return 1;
+  if (!(d.farthest > 0) || (d.nearest >= kMinDistance && d.farthest <= kMaxDistance)) return 1;
   int up = 0;
-  if (d.nearest < kNear) up = d.nearest > 0 ? static_cast<int>(std::ceil(math::log2(kComfortable / d.nearest))) : 64;
-  const int most = static_cast<int>(std::floor(math::log2(kFar / d.farthest)));
+  if (d.nearest < kMinDistance) up = d.nearest > 0 ? static_cast<int>(std::ceil(math::log2(kTargetDistance / d.nearest))) : kMaxExponent;
+  const int most = static_cast<int>(std::floor(math::log2(kMaxDistance / d.farthest)));
   return std::ldexp(1.0, std::min(up, most));
 }
 
@@ -88,13 +89,15 @@ Diagnostics scale_for_renderers(Product& product) {
     const auto factor = static_cast<float>(scale);
     for (auto& p : product.positions) p = {factor * p[0], factor * p[1], factor * p[2]};
     if (product.native) {
-      for (NativeLamp& lamp : product.native->lamps) {
-        lamp.at = scale * lamp.at, lamp.across = scale * lamp.across, lamp.other = scale * lamp.other;
-        if (lamp.fades) lamp.intensity = scale * scale * lamp.intensity;
+      for (native_lights::NativeLamp& lamp : product.native->lamps) {
+        lamp.at = scale * lamp.at;
+        lamp.half_u = scale * lamp.half_u;
+        lamp.half_v = scale * lamp.half_v;
+        if (lamp.inverse_square) lamp.intensity = scale * scale * lamp.intensity;
       }
     }
   }
-  if (product.indices.empty() || scale * d.nearest >= kLeastSeen) return {};
+  if (product.indices.empty() || scale * d.nearest >= kMinVisibleDistance) return {};
   return {make_warning("driver.eye-too-near",
                        fmt::format("the eye is {:.2g} from the nearest surface, and the farthest is {:.2g} away: renderers do not see both",
                                    d.nearest, d.farthest),

@@ -14,12 +14,16 @@ double degrees_of(const cover::Bearing& b) { return math::atan2(b.y, b.x) * 180 
 
 }  // namespace
 
-std::string plan_json(const cover::Plan& p) {
-  std::string per_bounces;
-  for (const Integer& n : p.copies_per_bounces) per_bounces += (per_bounces.empty() ? "" : ", ") + to_string(n);
-  return "{\n  \"copies\": " + to_string(p.copies) + ",\n  \"copies_per_bounces\": [" + per_bounces +
-         "],\n  \"sheets\": " + std::to_string(p.sheets) + ",\n  \"triangles\": " + std::to_string(p.triangles) +
-         ",\n  \"vertices\": " + std::to_string(p.vertices) + ",\n  \"bytes\": " + std::to_string(p.bytes) + "\n}\n";
+std::string plan_json(const cover::Plan& plan) {
+  std::vector<std::uint64_t> copies_per_bounces;
+  for (const Integer& copies : plan.copies_per_bounces) copies_per_bounces.push_back(static_cast<std::uint64_t>(copies));
+  const nlohmann::ordered_json json{{"copies", static_cast<std::uint64_t>(plan.copies)},
+                                    {"copies_per_bounces", copies_per_bounces},
+                                    {"sheets", plan.sheets},
+                                    {"triangles", plan.triangles},
+                                    {"vertices", plan.vertices},
+                                    {"bytes", plan.bytes}};
+  return json.dump(2) + "\n";
 }
 
 std::string report_json(const Compiled& compiled) {
@@ -29,37 +33,37 @@ std::string report_json(const Compiled& compiled) {
       {"copies", r.copies},
       {"vertices", r.vertices},
       {"triangles", r.triangles},
-      {"triangles_without_levels", r.triangles_whole},
+      {"triangles_without_levels", r.triangles_at_full_detail},
       {"beams", r.beams},
       {"words", r.words},
       {"longest_word", r.longest_word},
       {"error_bound_px", r.error_bound_px},
       {"tolerance_px", r.tolerance_px},
-      {"copies_left_out", r.left_out},
-      {"left_out_px", r.left_out_px},
+      {"copies_left_out", r.culled},
+      {"left_out_px", r.cull_px},
       {"weight_lost", r.weight_lost},
-      {"weight_merged", r.weight_merged},
-      {"curtains", r.curtains},
-      {"curtains_dropped", r.curtains_dropped},
+      {"weight_merged", r.weight_culled},
+      {"curtains", r.impostors},
+      {"curtains_dropped", r.impostors_dropped},
       {"atlas", {compiled.product.atlas.width, compiled.product.atlas.height}},
       {"lamps", compiled.product.native ? compiled.product.native->lamps.size() : 0},
       {"highlights", {{"copies", r.highlights.copies}, {"copies_without", r.highlights.copies_left_out}, {"texels", r.highlights.texels}}}};
-  if (!r.levels.empty()) {
+  if (!r.lods.empty()) {
     nlohmann::ordered_json& levels = json["levels"] = nlohmann::ordered_json::array();
-    for (const ToldLevels& of : r.levels) levels.push_back({{"part", of.part}, {"triangles", of.triangles}, {"error", of.error}});
+    for (const LodSummary& of : r.lods) levels.push_back({{"part", of.part}, {"triangles", of.triangles}, {"error", of.surface_offset}});
   }
   nlohmann::ordered_json& list = json["list"] = nlohmann::ordered_json::array();
-  const std::vector<DrawnCopy>& copies = compiled.product.copies;
+  const std::vector<ProductCopy>& copies = compiled.product.copies;
   std::vector<std::size_t> triangles(copies.size());
-  for (std::size_t i = 0; i < copies.size(); ++i) triangles[copies[i].again_of.value_or(i)] += copies[i].index_count / 3;
+  for (std::size_t i = 0; i < copies.size(); ++i) triangles[copies[i].duplicate_of.value_or(i)] += copies[i].index_count / 3;
   for (std::size_t i = 0; i < copies.size(); ++i) {
-    const DrawnCopy& c = copies[i];
+    const ProductCopy& c = copies[i];
     if (!is_listed(c)) continue;
     list.push_back({{"word", cover::to_string(c.word)},
                     {"bounces", c.bounces},
                     {"sheet", c.sheet},
                     {"mirrored", c.reversing},
-                    {"weight", {c.tint.r, c.tint.g, c.tint.b}},
+                    {"weight", {c.weight.r, c.weight.g, c.weight.b}},
                     {"distance", c.distance},
                     {"triangles", triangles[i]},
                     {"level", c.level}});

@@ -13,11 +13,18 @@ Executor parallel_executor(int threads, const std::atomic<bool>* cancelled) {
   const Progress stop{{}, cancelled};
   if (threads == 1)
     return [stop](std::size_t count, const std::function<void(std::size_t)>& task) {
-      for (std::size_t i = 0; i < count; ++i) stop_if_cancelled(stop), task(i);
+      for (std::size_t i = 0; i < count; ++i) {
+        stop_if_cancelled(stop);
+        task(i);
+      }
     };
   const auto arena = std::make_shared<tbb::task_arena>(threads > 0 ? threads : static_cast<int>(tbb::task_arena::automatic));
   return [arena, stop](std::size_t count, const std::function<void(std::size_t)>& task) {
-    arena->execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { stop_if_cancelled(stop), task(i); }); });
+    const auto run = [&](std::size_t i) {
+      stop_if_cancelled(stop);
+      task(i);
+    };
+    arena->execute([&] { tbb::parallel_for(std::size_t{0}, count, run); });
   };
 }
 

@@ -12,39 +12,42 @@
 namespace orbc::driver {
 namespace {
 
-// How far it is from the middle of the room to its walls, about. The strip has no inscribed circle: its mirrors lie `scale` away.
-double reach(const Opened& opened) {
-  const room::Room& room = opened.room->polygon;
-  const double wide = room.inradius > 0 ? room.inradius : room.orbifold.strip ? opened.scene.room.shape.scale : room.circumradius / 2;
-  return wide;
+/// About the distance from the centre of the room to its walls. The strip has no inscribed circle: its mirrors lie `scale` away.
+double distance_to_walls(const LoadedScene& loaded) {
+  const room::Room& room = loaded.interior->polygon;
+  if (room.inradius > 0) return room.inradius;
+  return room.orbifold.strip ? loaded.scene.room.shape.scale : room.circumradius / 2;
 }
 
-// Values as the hint writes them: to two digits.
+/// A value with two digits, as the hint writes it.
 double rounded(double value) {
   if (value <= 0) return 0;
   const double scale = math::pow(10.0, 1 - std::floor(math::log10(value)));
   return std::round(value * scale) / scale;
 }
 
-// What a lamp at height z over the middle must give to light floor and walls: at their foot its light is Φz/(4π(z²+ρ²)^(3/2)), where
-// ρ measures how light spreads in this space, and the images in near walls add to it; but no more than 5 times white just below it.
-// The factors are those for which pictures of rooms of all kinds come out right (measured).
-double power_of(const Opened& opened, double z) {
-  const double spread = geometry::sin_k(opened.room->polygon.space, reach(opened));
+/// The power of a lamp at height z over the centre that lights floor and walls well. At the foot of the walls its light is
+/// Φz/(4π(z²+ρ²)^(3/2)), where ρ = sinκ(distance) measures how light spreads in this space; its images in near walls add to that. The floor
+/// just below gets at most 5 times white. The factors are measured: with them the pictures of rooms of all kinds are well exposed.
+double power_of(const LoadedScene& loaded, double z) {
+  const double spread = geometry::sin_k(loaded.interior->polygon.space, distance_to_walls(loaded));
   const double slant = math::hypot(z, spread), steep = std::min(z / spread, 3.0);
-  return std::min(28 * slant * slant * slant / (z * (1 + 1.5 * steep * steep)), 60 * z * z) / opened.scene.exposure;
+  return std::min(28 * slant * slant * slant / (z * (1 + 1.5 * steep * steep)), 60 * z * z) / loaded.scene.exposure;
 }
 
-bool hangs_freely(const Opened& opened, const scene::Lamp& lamp) {
+bool is_free(const LoadedScene& loaded, const scene::Lamp& lamp) {
   scene::Scene lit;
-  lit.orbifold = opened.scene.orbifold, lit.room = opened.scene.room, lit.objects = opened.scene.objects, lit.lamps = {lamp};
-  const auto hung = light::place_lamps(lit, opened.room->polygon);
-  return hung.has_value() && hung->warnings.empty() && light::lamps_inside_objects(lit, *hung, *opened.room).empty();
+  lit.orbifold = loaded.scene.orbifold;
+  lit.room = loaded.scene.room;
+  lit.objects = loaded.scene.objects;
+  lit.lamps = {lamp};
+  const auto hung = light::place_lamps(lit, loaded.interior->polygon);
+  return hung.has_value() && hung->warnings.empty() && light::lamps_inside_objects(lit, *hung, *loaded.interior).empty();
 }
 
-// The first free place: the middle below the ceiling, else aside or lower. Nothing when the room is crammed.
-std::optional<scene::Lamp> free_lamp(const Opened& opened) {
-  const double height = opened.scene.room.height, near = reach(opened);
+/// A lamp in the first free place: at the centre below the ceiling, or beside it or lower. Nothing when there is none.
+std::optional<scene::Lamp> free_lamp(const LoadedScene& loaded) {
+  const double height = loaded.scene.room.height, near = distance_to_walls(loaded);
   scene::Lamp lamp;
   lamp.radius = rounded(std::min(0.06 * near, 0.08 * height));
   for (const double aside : {0.0, 0.3, 0.6})
@@ -53,24 +56,24 @@ std::optional<scene::Lamp> free_lamp(const Opened& opened) {
         const double z = rounded(part * height);
         lamp.place.floor = scene::AtPolar{rounded(aside * near), Angle::from_degrees(turn)};
         lamp.place.z = z;
-        lamp.power = rounded(power_of(opened, z));
-        if (hangs_freely(opened, lamp)) return lamp;
+        lamp.power = rounded(power_of(loaded, z));
+        if (is_free(loaded, lamp)) return lamp;
       }
   return std::nullopt;
 }
 
 }  // namespace
 
-Diagnostics unlit_note(const Opened& opened) {
-  if (!opened.scene.lamps.empty() || opened.scene.integrator == scene::Integrator::path) return {};
+Diagnostics unlit_note(const LoadedScene& loaded) {
+  if (!loaded.scene.lamps.empty() || loaded.scene.integrator == scene::Integrator::path) return {};
   std::string hint = "add `lights:`";
-  if (const auto lamp = free_lamp(opened)) {
+  if (const auto lamp = free_lamp(loaded)) {
     const auto& at = std::get<scene::AtPolar>(lamp->place.floor);
     hint = fmt::format("for light and shadow add the line   lights: [{{at: {{polar: [{}, {:.0f}deg], z: {}}}, radius: {}, power: {}}}]",
                        at.r, at.angle.degrees(), *lamp->place.z, lamp->radius, lamp->power);
   }
   return {make_note("driver.no-lights", "the scene has no lights: it is shown in its plain colours, which looks flat", hint,
-                    opened.scene.orbifold_span)};
+                    loaded.scene.orbifold_span)};
 }
 
 }  // namespace orbc::driver

@@ -1,12 +1,13 @@
 #pragma once
 #include "compiler/base/diagnostic.h"
-#include "compiler/driver/open.h"
+#include "compiler/driver/load.h"
 
 namespace orbc::driver {
 
-/// Why a picture of this scene looks flat, if it will: a scene with neither lamps nor `integrator: path` is shown in its plain colours.
-/// Makes: a note with a line of YAML that lights this very room: its lamp is inside of the room, in no object, and about as bright as the
-///        picture wants. Nothing for scenes that are lit.
-[[nodiscard]] Diagnostics unlit_note(const Opened& opened);
+/// Says why the picture of a scene looks flat: with neither lamps nor `integrator: path` it shows plain colors.
+/// Makes: a note with a line of YAML that lights this room: its lamp is inside the room, in no object, and of a power that suits the
+/// picture.
+///        Nothing for lit scenes.
+[[nodiscard]] Diagnostics unlit_note(const LoadedScene& loaded);
 
 }  // namespace orbc::driver

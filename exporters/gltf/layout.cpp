@@ -37,12 +37,12 @@ void measure(const driver::Product& product, Part& part) {
 std::vector<Part> make_parts(const driver::Product& product, bool part_per_copy) {
   std::vector<Part> parts;
   for (std::size_t i = 0; i < product.copies.size(); ++i) {
-    const driver::DrawnCopy& copy = product.copies[i];
+    const driver::ProductCopy& copy = product.copies[i];
     if (copy.vertex_count == 0 || copy.index_count == 0) continue;
     ORBC_CHECK(copy.first_vertex + copy.vertex_count, <=, product.positions.size());
     ORBC_CHECK(copy.first_index + copy.index_count, <=, product.indices.size());
     ORBC_CHECK(copy.index_count % 3, ==, 0u);
-    const bool glows = !product.native || copy.shine != driver::Shine::lit;
+    const bool glows = !product.native || copy.shading != native_lights::Shading::lit;
     if (!part_per_copy && !parts.empty() && parts.back().glows == glows && parts.back().object == copy.object) {
       Part& last = parts.back();
       if (last.first_vertex + last.vertex_count == copy.first_vertex && last.first_index + last.index_count == copy.first_index) {
@@ -145,10 +145,10 @@ void append_geometry(const driver::Product& product, const Layout& layout, std::
   if (layout.has_color) {
     for (const Part& part : layout.parts) {
       for (std::size_t c = part.first_copy; c < part.first_copy + part.copy_count; ++c) {
-        const driver::DrawnCopy& copy = product.copies[c];
+        const driver::ProductCopy& copy = product.copies[c];
         if (copy.vertex_count == 0 || copy.index_count == 0) continue;
         std::array<std::uint16_t, 4> block[kBlock];
-        std::fill(block, block + std::min(kBlock, copy.vertex_count), quantised(part.glows ? copy.tint : scene::Color{1, 1, 1}));
+        std::fill(block, block + std::min(kBlock, copy.vertex_count), quantised(part.glows ? copy.weight : scene::Color{1, 1, 1}));
         for (std::size_t done = 0; done < copy.vertex_count; done += kBlock) append(out, block, std::min(kBlock, copy.vertex_count - done));
       }
     }

@@ -21,7 +21,7 @@
 namespace orbc::gltf {
 namespace {
 
-using driver::DrawnCopy;
+using driver::ProductCopy;
 using driver::Product;
 using geometry::Vector3;
 
@@ -45,7 +45,7 @@ Numbering numbering(const Layout& layout) {
   return n;
 }
 
-std::string copy_name(const DrawnCopy& copy) { return copy.word.empty() ? "room" : "copy " + cover::to_string(copy.word); }
+std::string copy_name(const ProductCopy& copy) { return copy.word.empty() ? "room" : "copy " + cover::to_string(copy.word); }
 
 const char* projection_name(scene::Projection projection) {
   return projection == scene::Projection::perspective ? "perspective" : projection == scene::Projection::panorama ? "panorama" : "cylinder";
@@ -53,11 +53,11 @@ const char* projection_name(scene::Projection projection) {
 
 std::array<float, 3> floats(const scene::Color& c) { return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)}; }
 
-void write_copy_facts(Json& json, const DrawnCopy& copy) {
+void write_copy_facts(Json& json, const ProductCopy& copy) {
   json.key("word").string(cover::to_string(copy.word));
   json.key("bounces").number(copy.bounces).key("sheet").number(copy.sheet);
   json.key("reversing").boolean(copy.reversing);
-  json.key("weight").numbers(floats(copy.tint));
+  json.key("weight").numbers(floats(copy.weight));
   json.key("distance").number(copy.distance).key("level").number(copy.level);
 }
 
@@ -146,7 +146,7 @@ void write_ranges(Json& json, const Product& product, const Layout& layout, cons
     for (std::size_t p = group.first_part; p < group.first_part + group.part_count; ++p) {
       const Part& part = layout.parts[p];
       for (std::size_t c = part.first_copy; c < part.first_copy + part.copy_count; ++c) {
-        const DrawnCopy& copy = product.copies[c];
+        const ProductCopy& copy = product.copies[c];
         if (copy.vertex_count == 0 || copy.index_count == 0) continue;
         json.object();
         write_copy_facts(json, copy);
@@ -184,7 +184,7 @@ Tints collect_tints(const Product& product, const Layout& layout, bool per_copy,
   std::map<std::array<double, 4>, std::size_t> known;
   for (const Part& part : layout.parts) {
     // Lamps bring the weights of the copies that they light.
-    const scene::Color c = part.glows ? product.copies[part.first_copy].tint : scene::Color{1, 1, 1};
+    const scene::Color c = part.glows ? product.copies[part.first_copy].weight : scene::Color{1, 1, 1};
     const auto [entry, is_new] = known.try_emplace({c.r, c.g, c.b, part.glows ? 1.0 : 0.0}, tints.materials.size());
     if (is_new) tints.materials.push_back({c, part.glows, "atlas"});
     tints.of_part.push_back(entry->second);
@@ -193,33 +193,33 @@ Tints collect_tints(const Product& product, const Layout& layout, bool per_copy,
 }
 
 /// The lamps that are no image of another copy's.
-std::vector<driver::NativeLamp> own_lamps(const Product& product) {
-  std::vector<driver::NativeLamp> own;
+std::vector<native_lights::NativeLamp> own_lamps(const Product& product) {
+  std::vector<native_lights::NativeLamp> own;
   if (product.native)
     std::copy_if(product.native->lamps.begin(), product.native->lamps.end(), std::back_inserter(own),
-                 [](const driver::NativeLamp& l) { return l.own; });
+                 [](const native_lights::NativeLamp& l) { return l.direct; });
   return own;
 }
 
-bool is_cone(const driver::NativeLamp& lamp) {
+bool is_cone(const native_lights::NativeLamp& lamp) {
   return lamp.kind == scene::LampKind::spot || lamp.kind == scene::LampKind::disk || lamp.kind == scene::LampKind::rectangle;
 }
 
 /// KHR_lights_punctual: points and cones, in candela. A white surface, face on at distance r, is to show intensity/r²: that is I/(π r²) of
 /// a radiant intensity I, and at 683 lm/W, as Blender takes it, 683·π candela for each. Plates become the widest cones there are.
-void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
+void write_lights(Json& json, const std::vector<native_lights::NativeLamp>& lamps) {
   constexpr double kLumensPerWatt = 683;
   json.key("extensions").object().key("KHR_lights_punctual").object().key("lights").array();
-  for (const driver::NativeLamp& lamp : lamps) {
+  for (const native_lights::NativeLamp& lamp : lamps) {
     const double most = scene::max_channel(lamp.intensity), whole = most > 0 ? most : 1;
     json.object().key("type").string(is_cone(lamp) ? "spot" : "point");
     json.key("color").numbers(floats((1 / whole) * lamp.intensity));
     json.key("intensity").number(kLumensPerWatt * std::numbers::pi * most);
-    if (lamp.kind != scene::LampKind::tube && geometry::length(lamp.across) > 0)  // glTF knows no size; scripts/render_blender.py does
+    if (lamp.kind != scene::LampKind::tube && geometry::length(lamp.half_u) > 0)  // glTF knows no size; scripts/render_blender.py does
       json.key("extras")
           .object()
           .key("orbc_radius")
-          .number(static_cast<float>(std::sqrt(geometry::length(lamp.across) * geometry::length(lamp.other))))
+          .number(static_cast<float>(std::sqrt(geometry::length(lamp.half_u) * geometry::length(lamp.half_v))))
           .end_object();
     if (is_cone(lamp)) {
       const bool spot = lamp.kind == scene::LampKind::spot;
@@ -233,7 +233,7 @@ void write_lights(Json& json, const std::vector<driver::NativeLamp>& lamps) {
 }
 
 /// A lamp shines along its −z: columns of any frame whose third is against its axis, in glTF's axes.
-void write_lamp_node(Json& json, const driver::NativeLamp& lamp, std::size_t number) {
+void write_lamp_node(Json& json, const native_lights::NativeLamp& lamp, std::size_t number) {
   const Vector3 back = -1.0 * lamp.axis;
   const Vector3 right = geometry::normalised(geometry::cross(std::fabs(back.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}, back));
   json.object().key("name").string("lamp").key("matrix").array();
@@ -345,7 +345,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
   Json json(pen);
   json.object();
   json.key("asset").object().key("version").string("2.0").key("generator").string("orbc").end_object();
-  const std::vector<driver::NativeLamp> lamps = own_lamps(product);
+  const std::vector<native_lights::NativeLamp> lamps = own_lamps(product);
   if (drawn) {
     json.key("extensionsUsed").array().string("KHR_materials_unlit");
     if (product.native) json.string("KHR_materials_specular");
@@ -368,7 +368,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
     for (std::size_t p = 0; p < layout.parts.size(); ++p) json.number(p + 2);
     json.end_array().end_object();
     for (std::size_t p = 0; p < layout.parts.size(); ++p) {
-      const DrawnCopy& copy = product.copies[layout.parts[p].first_copy];
+      const ProductCopy& copy = product.copies[layout.parts[p].first_copy];
       json.object().key("name").string(copy_name(copy)).key("mesh").number(p).key("extras").object();
       write_copy_facts(json, copy);
       json.end_object().end_object();
@@ -388,7 +388,7 @@ std::string make_json(const Product& product, const Layout& layout, const GltfOp
       json.end_array().end_object();
     }
     json.end_array();
-    write_materials(json, layout, tints, uris.atlas, options.interpolate || product.blended_atlas, product.masked);
+    write_materials(json, layout, tints, uris.atlas, options.interpolate || product.bilinear_atlas, product.masked);
     write_accessors(json, layout);
     write_buffers(json, layout, uris.bin);
     if (!options.nodes_per_copy) write_ranges(json, product, layout, groups);
@@ -447,7 +447,7 @@ std::vector<driver::File> write_gltf(const Product& product, const GltfOptions& 
   ORBC_CHECK(product.uv.size(), ==, product.positions.size());
   ORBC_CHECK(options.nodes_per_object && (options.nodes_per_copy || (product.objects.empty() && !product.copies.empty())), ==, false);
   const bool drawn =
-      std::any_of(product.copies.begin(), product.copies.end(), [](const DrawnCopy& c) { return c.vertex_count && c.index_count; });
+      std::any_of(product.copies.begin(), product.copies.end(), [](const ProductCopy& c) { return c.vertex_count && c.index_count; });
   std::string png;
   if (drawn && !product.atlas.rgba.empty()) png = atlas_png(product);
   const Layout layout = make_layout(product, options.nodes_per_copy, options.binary ? png.size() : 0);

@@ -31,7 +31,7 @@ Pen& operator<<(Pen& pen, const scene::Color& c) {
 
 void write_head(Pen& pen, const driver::Product& product, const PovOptions& options) {
   std::size_t triangles = 0;
-  for (const driver::DrawnCopy& copy : product.copies) triangles += copy.index_count / 3;
+  for (const driver::ProductCopy& copy : product.copies) triangles += copy.index_count / 3;
   pen << "// orbc: " << exporters::one_line(product.title) << ", " << product.copies.size() << " copies, " << triangles << " triangles\n";
   pen << "// size: +W" << product.eye.width << " +H" << product.eye.height << "\n";
   if (options.inline_atlas) {
@@ -92,7 +92,7 @@ AtlasFiles atlas_files(const driver::Product& product, const std::string& name) 
 }
 
 void write_atlas_pigment(Pen& pen, const driver::Product& product, const AtlasFiles& files, const PovOptions& options) {
-  const char* lookup = options.interpolate || product.blended_atlas ? " interpolate 2" : "";
+  const char* lookup = options.interpolate || product.bilinear_atlas ? " interpolate 2" : "";
   const char* kind = product.depth == scene::AtlasFormat::exr ? "exr" : "png";
   pen << "#declare OrbcAtlas = pigment { ";
   if (files.atlas.name.empty()) {
@@ -112,9 +112,9 @@ constexpr int kGrid = 7;                // points of an area light in each direc
 double degrees_of(double cosine) { return math::acos(std::clamp(cosine, 0.0, 1.0)) * 180 / std::numbers::pi; }
 
 /// A white surface, face on at distance r, is to show intensity/r²; POV-Ray shows colour × 2/(1 + (r/D)²).
-void write_lamp(Pen& pen, const driver::NativeLamp& lamp) {
+void write_lamp(Pen& pen, const native_lights::NativeLamp& lamp) {
   using scene::LampKind;
-  const double gain = lamp.fades ? 1 / (2 * kFadeDistance * kFadeDistance) : 1;
+  const double gain = lamp.inverse_square ? 1 / (2 * kFadeDistance * kFadeDistance) : 1;
   pen << "light_source { " << lamp.at << " rgb " << gain * lamp.intensity;
   const bool one_sided = lamp.kind == LampKind::rectangle || lamp.kind == LampKind::disk;
   if (lamp.kind == LampKind::spot) {
@@ -124,27 +124,27 @@ void write_lamp(Pen& pen, const driver::NativeLamp& lamp) {
     pen << " spotlight point_at " << lamp.at + lamp.axis << " radius 90 falloff 90 tightness 1";
   }
   if (lamp.kind == LampKind::tube) {
-    pen << " area_light " << 2.0 * lamp.across << ", <0,0,0.001>, " << kGrid * 2 << ", 1 area_illumination on";
+    pen << " area_light " << 2.0 * lamp.half_u << ", <0,0,0.001>, " << kGrid * 2 << ", 1 area_illumination on";
   } else if (one_sided || lamp.kind == LampKind::sphere) {
-    pen << " area_light " << 2.0 * lamp.across << ", " << 2.0 * lamp.other << ", " << kGrid << ", " << kGrid;
+    pen << " area_light " << 2.0 * lamp.half_u << ", " << 2.0 * lamp.half_v << ", " << kGrid << ", " << kGrid;
     if (lamp.kind != LampKind::rectangle) pen << " circular";
     if (lamp.kind == LampKind::sphere) pen << " orient";
     pen << " area_illumination on";
   }
-  if (lamp.fades) pen << " fade_power 2 fade_distance " << kFadeDistance;
+  if (lamp.inverse_square) pen << " fade_power 2 fade_distance " << kFadeDistance;
   pen << " }\n";
 }
 
 /// The finish by which the pigment becomes light.
-void write_finish(Pen& pen, const driver::Product& product, const driver::DrawnCopy& copy) {
-  if (product.native && copy.shine == driver::Shine::lit)
-    pen << "finish { emission rgb " << copy.tint * product.native->ambient << " ambient 0 diffuse 1 }";
-  else pen << "finish { emission rgb " << copy.tint << " ambient 0 diffuse 0 }";
+void write_finish(Pen& pen, const driver::Product& product, const driver::ProductCopy& copy) {
+  if (product.native && copy.shading == native_lights::Shading::lit)
+    pen << "finish { emission rgb " << copy.weight * product.native->ambient << " ambient 0 diffuse 1 }";
+  else pen << "finish { emission rgb " << copy.weight << " ambient 0 diffuse 0 }";
 }
 
-void write_copy(Pen& pen, const driver::Product& product, const driver::DrawnCopy& copy, std::size_t number) {
+void write_copy(Pen& pen, const driver::Product& product, const driver::ProductCopy& copy, std::size_t number) {
   pen << "// copy " << number << ": word \"" << cover::to_string(copy.word) << "\", " << copy.bounces << " bounces, sheet " << copy.sheet
-      << ", weight " << copy.tint << ", distance " << static_cast<float>(copy.distance) << (copy.reversing ? ", reversed" : "");
+      << ", weight " << copy.weight << ", distance " << static_cast<float>(copy.distance) << (copy.reversing ? ", reversed" : "");
   if (copy.vertex_count == 0 || copy.index_count == 0) {
     pen << ", nothing to draw\n";  // an empty mesh2 would be a parse error
     return;
@@ -178,13 +178,13 @@ void write_copy(Pen& pen, const driver::Product& product, const driver::DrawnCop
   }
   pen << " }\nuv_mapping\ntexture { pigment { OrbcAtlas } ";
   write_finish(pen, product, copy);
-  pen << " }" << (copy.shine == driver::Shine::lamp ? " no_shadow" : "") << "\n}\n";
+  pen << " }" << (copy.shading == native_lights::Shading::lamp_body ? " no_shadow" : "") << "\n}\n";
 }
 
 /// A copy that is lit by lamps of its own alone: in a light group, where everything casts shadows, but only what is in it is lit.
 void write_lit_copy(Pen& pen, const driver::Product& product, std::size_t number, std::size_t& next_lamp) {
   const auto& lamps = product.native->lamps;
-  const driver::DrawnCopy& copy = product.copies[number];
+  const driver::ProductCopy& copy = product.copies[number];
   const bool drawn = copy.vertex_count > 0 && copy.index_count > 0 && next_lamp < lamps.size() && lamps[next_lamp].copy == number;
   if (drawn) pen << "light_group {\n";
   for (; next_lamp < lamps.size() && lamps[next_lamp].copy == number; ++next_lamp)

@@ -25,7 +25,7 @@ RoomDrawing draw_room(const room::Room& room, const RoomPicture& picture) {
   tiling.room = room;
   tiling.copies = std::move(filled.copies);
   tiling.model = picture.chart == Chart::klein ? driver::Tiling::Model::klein : driver::Tiling::Model::disk;
-  tiling.colouring = picture.coloring;
+  tiling.coloring = picture.coloring;
   tiling.room_from_eye = geometry::identity(room.space);
   drawing.copies = tiling.copies.size();
   drawing.width = page.width;

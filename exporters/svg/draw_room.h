@@ -11,7 +11,7 @@ namespace orbc::svg {
 struct RoomPicture {
   Chart chart = Chart::disk;
   double width = 1000, height = 0;  ///< page units; height 0: what suits the room
-  driver::Tiling::Colouring coloring = driver::Tiling::Colouring::parity;
+  driver::Tiling::Coloring coloring = driver::Tiling::Coloring::parity;
   SvgOptions look;                  ///< its motif as its author gave it: it is placed in the room here
   FillOptions fill;
 };

@@ -49,12 +49,12 @@ constexpr std::array<unsigned, 6> kRamp{0xe8684a, 0xf2a65a, 0xf4d58d, 0x8fbfa3, 
 
 }  // namespace
 
-std::string fill_of(const cover::Copy& copy, int longest, driver::Tiling::Colouring colouring, const Colors& colors) {
+std::string fill_of(const cover::Copy& copy, int longest, driver::Tiling::Coloring coloring, const Colors& colors) {
   const int length = static_cast<int>(copy.word.size());
-  if (colors && colouring == driver::Tiling::Colouring::parity) return (*colors)[copy.cover_from_room.reversing ? 1 : 0];
+  if (colors && coloring == driver::Tiling::Coloring::parity) return (*colors)[copy.cover_from_room.reversing ? 1 : 0];
   if (colors)
     return hex_of(mix(lab_of(code_of((*colors)[0])), lab_of(code_of((*colors)[1])), std::min(1.0, static_cast<double>(length) / longest)));
-  if (colouring == driver::Tiling::Colouring::parity) {
+  if (coloring == driver::Tiling::Coloring::parity) {
     if (length == 0) return kBase;
     // The first reflections stand out; beyond some ten bounces parity is all that is left.
     const double fade = 0.55 * (1 - math::exp(-(length - 1) / 6.0));
@@ -67,11 +67,11 @@ std::string fill_of(const cover::Copy& copy, int longest, driver::Tiling::Colour
   return hex_of(color);
 }
 
-std::string haze(driver::Tiling::Colouring colouring, const Colors& colors) {
+std::string haze(driver::Tiling::Coloring coloring, const Colors& colors) {
   if (colors)
     return hex_of(
-        mix(lab_of(code_of((*colors)[0])), lab_of(code_of((*colors)[1])), colouring == driver::Tiling::Colouring::parity ? 0.5 : 1));
-  return hex_of(colouring == driver::Tiling::Colouring::parity ? lab_of(kHaze) : lab_of(kRamp.back()));
+        mix(lab_of(code_of((*colors)[0])), lab_of(code_of((*colors)[1])), coloring == driver::Tiling::Coloring::parity ? 0.5 : 1));
+  return hex_of(coloring == driver::Tiling::Coloring::parity ? lab_of(kHaze) : lab_of(kRamp.back()));
 }
 
 std::string ink_on(const std::string& fill) { return lab_of(code_of(fill)).l > 0.62 ? kInk : kPaper; }

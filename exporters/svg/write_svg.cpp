@@ -87,7 +87,7 @@ Groups grouped(const std::vector<Tile>& tiles, const Tiling& tiling, const Page&
   const int longest = longest_told(tiles);
   Groups groups;
   for (const Tile& tile : tiles) {
-    Group& group = groups[{fill_of(*tile.copy, longest, tiling.colouring, options.colors), seam_level(tile.path.diameter, page)}];
+    Group& group = groups[{fill_of(*tile.copy, longest, tiling.coloring, options.colors), seam_level(tile.path.diameter, page)}];
     if (options.tooltips && tile.path.diameter >= kTooltipFrom) {
       const std::string word = tile.copy->word.empty() ? "the room" : cover::to_string(tile.copy->word);
       group.single += "<path d=\"" + tile.path.d + "\"><title>" + word + "</title></path>\n";
@@ -121,7 +121,7 @@ void write_motifs(std::string& out, const std::vector<Tile>& tiles, const Tiling
   std::map<std::string, std::string> by_color;
   for (const Tile& tile : tiles) {
     if (tile.path.diameter < kMotifFrom * page.unit) continue;
-    const std::string color = ink_on(fill_of(*tile.copy, longest, tiling.colouring, options.colors));
+    const std::string color = ink_on(fill_of(*tile.copy, longest, tiling.coloring, options.colors));
     const MotifPath path = motif_path(page, options.motif, tile.copy->cover_from_room);
     if (path.is_alone) out += element(color, path.d);
     else if (!path.d.empty()) by_color[color] += path.d + '\n';
@@ -160,7 +160,7 @@ std::string head(const Tiling& tiling, const Page& page, const std::vector<Tile>
   out += "<title>" + escaped(tiling.title) + "</title>\n<desc>The mirror room " + escaped(tiling.title) + " and its " +
          std::to_string(tiles.size()) + " drawn copies; " + chart_name(tiling, page) + ". ";
   out += options.colors ? "Mirror images" : "The room itself is orange, mirror images";
-  out += tiling.colouring == Tiling::Colouring::parity ? options.colors ? " have the second colour" : " are dark, their mirror images light"
+  out += tiling.coloring == Tiling::Coloring::parity ? options.colors ? " have the second colour" : " are dark, their mirror images light"
                                                        : " and copies are coloured by the number of mirrors on the way to them";
   if (std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return tile.copy->wedge.has_value(); }))
     out += ", copies are cut to what the eye sees of them";
@@ -209,7 +209,7 @@ std::string draw_tiling(const Tiling& tiling, const Page& page, double caption, 
   out += "<rect width=\"100%\" height=\"100%\" fill=\"" + std::string(kPaper) + "\"/>\n";
   if (!border.clip.empty()) {
     out += "<clipPath id=\"" + border.clip + "\">" + border.shape + "/>\n</clipPath>\n";
-    if (!tiling.room.orbifold.strip) out += border.shape + " fill=\"" + haze(tiling.colouring, options.colors) + "\"/>\n";
+    if (!tiling.room.orbifold.strip) out += border.shape + " fill=\"" + haze(tiling.coloring, options.colors) + "\"/>\n";
   }
   out += "<g stroke=\"" + line_color + "\" stroke-linejoin=\"round\" fill-rule=\"evenodd\"" +
          (border.clip.empty() ? "" : " clip-path=\"url(#" + border.clip + ")\"") + ">\n";

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "compiler/bake/diffuse.h"
-#include "compiler/driver/open.h"
+#include "compiler/driver/load.h"
 #include "compiler/render/draw.h"
 #include "compiler/trace/follow.h"
 
@@ -10,19 +10,20 @@ using namespace orbc;
 
 namespace {
 
-const driver::Opened& opened() {
-  static const driver::Opened scene = driver::open_scene(ORBC_SOURCE_DIR "/tests/bench/lit.yaml").value();
+const driver::LoadedScene& loaded() {
+  static const driver::LoadedScene scene = driver::load(ORBC_SOURCE_DIR "/tests/bench/lit.yaml").value();
   return scene;
 }
 
 void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator integrator) {
-  scene::Scene scene = opened().scene;
+  scene::Scene scene = loaded().scene;
   scene.bake.quality = quality;
   scene.integrator = integrator;
-  const light::LightingContext lighting = light::prepare_light(scene, *opened().room, bake::bake_light_options(scene)).value();
+  const light::LightingContext lighting = light::prepare_light(scene, *loaded().interior, bake::bake_light_options(scene)).value();
   double points = 0, texels = 0;
   for (auto _ : state) {
-    const bake::DiffuseBake baked = bake::bake_diffuse(*opened().room, lighting, bake::bake_options(scene.bake), serial_executor()).value();
+    const bake::DiffuseBake baked =
+        bake::bake_diffuse(*loaded().interior, lighting, bake::bake_options(scene.bake), serial_executor()).value();
     points = static_cast<double>(baked.counts.lit_points), texels = static_cast<double>(baked.counts.texels);
   }
   state.counters["points"] = points, state.counters["texels"] = texels,
@@ -31,7 +32,7 @@ void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator
 
 // Rays of a small picture, followed through the mirrors: what a stream of camera rays takes a piece.
 std::vector<trace::Ray> camera_rays() {
-  place::Camera eye = opened().eye;
+  place::Camera eye = loaded().eye;
   eye.width = 320, eye.height = 240;
   std::vector<trace::Ray> rays;
   for (int y = 0; y < eye.height; ++y)
@@ -40,7 +41,7 @@ std::vector<trace::Ray> camera_rays() {
 }
 
 void camera(benchmark::State& state) {
-  const trace::TraceScene scene = trace::prepare(*opened().room);
+  const trace::TraceScene scene = trace::prepare(*loaded().interior);
   const std::vector<trace::Ray> rays = camera_rays();
   for (auto _ : state)
     for (const trace::Ray& ray : rays) benchmark::DoNotOptimize(trace::closest(scene, ray));
@@ -48,10 +49,10 @@ void camera(benchmark::State& state) {
 }
 
 void shadow(benchmark::State& state) {
-  const trace::TraceScene scene = trace::prepare(*opened().room);
+  const trace::TraceScene scene = trace::prepare(*loaded().interior);
   std::vector<trace::Ray> rays;
   std::vector<double> lengths;
-  const light::LightingContext lighting = light::prepare_light(opened().scene, *opened().room).value();
+  const light::LightingContext lighting = light::prepare_light(loaded().scene, *loaded().interior).value();
   for (const trace::Ray& ray : camera_rays()) {
     const trace::Hit hit = trace::closest(scene, ray);
     const geometry::Position at = trace::position_at(scene.prism.space, ray, hit.t);

@@ -33,9 +33,9 @@ inline void add_texel(image::Image& image, std::array<std::uint8_t, 3> rgb) {
 }
 
 /// Appends a copy made of `positions`, `uv` and triangles counted from its own first vertex.
-inline driver::DrawnCopy& add_copy(driver::Product& product, const std::vector<std::array<float, 3>>& positions,
+inline driver::ProductCopy& add_copy(driver::Product& product, const std::vector<std::array<float, 3>>& positions,
                                    const std::vector<std::array<float, 2>>& uv, const std::vector<std::uint32_t>& indices) {
-  driver::DrawnCopy copy;
+  driver::ProductCopy copy;
   copy.first_vertex = product.positions.size(), copy.vertex_count = positions.size();
   copy.first_index = product.indices.size(), copy.index_count = indices.size();
   product.positions.insert(product.positions.end(), positions.begin(), positions.end());
@@ -56,9 +56,9 @@ inline driver::Product two_squares() {
   add_texel(product.atlas, {10, 20, 30});
   add_copy(product, {{2, -0.25f, 0}, {2, 0.25f, 0}, {2, 0.25f, 0.75f}, {2, -0.25f, 0.75f}},
            {{0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}}, {0, 1, 2, 0, 2, 3});
-  driver::DrawnCopy& image = add_copy(product, {{3, -1, 0}, {3, 1, 0}, {3, 1, 1.5f}, {3, -1, 1.5f}},
+  driver::ProductCopy& image = add_copy(product, {{3, -1, 0}, {3, 1, 0}, {3, 1, 1.5f}, {3, -1, 1.5f}},
                                       {{0.75f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}}, {0, 2, 1, 0, 3, 2});
-  image.tint = {0.81, 0.6561, 0.5};
+  image.weight = {0.81, 0.6561, 0.5};
   image.word = {1, 0};
   image.bounces = 2;
   image.reversing = false;

@@ -17,10 +17,10 @@ namespace {
 
 using namespace orbc;
 
-std::string mirror_quad(const driver::Opened& opened, const place::PlacedMirror& mirror) {
-  const geometry::Isometry eye_from_room = geometry::inverse(opened.eye.room_from_eye);
+std::string mirror_quad(const driver::LoadedScene& loaded, const place::PlacedMirror& mirror) {
+  const geometry::Isometry eye_from_room = geometry::inverse(loaded.eye.room_from_eye);
   const auto corner = [&](int side, int level) {
-    const geometry::Point p = eye_from_room * room::point_on_wall(opened.room->polygon, mirror.wall, mirror.span[side]);
+    const geometry::Point p = eye_from_room * room::point_on_wall(loaded.interior->polygon, mirror.wall, mirror.span[side]);
     return fmt::format("<{:.17g},{:.17g},{:.17g}>", p.x, p.y, mirror.height[level]);
   };
   const scene::Color c = mirror.throughput;
@@ -35,9 +35,9 @@ std::string vector(double x, double y, double z) { return fmt::format("<{:.9g},{
 std::string vector(const scene::Color& c) { return vector(c.r, c.g, c.b); }
 
 /// A part as matte triangles with the normals by which it is lit. Ambient light is emission times the pigment, and adds to what lamps give.
-std::string matte_part(const driver::Opened& opened, const place::PlacedMesh& part) {
-  const geometry::Isometry eye_from_room = geometry::inverse(opened.eye.room_from_eye);
-  const surface::PartNormals normals = surface::part_normals(*opened.room, part);
+std::string matte_part(const driver::LoadedScene& loaded, const place::PlacedMesh& part) {
+  const geometry::Isometry eye_from_room = geometry::inverse(loaded.eye.room_from_eye);
+  const surface::PartNormals normals = surface::part_normals(*loaded.interior, part);
   if (part.triangles.empty()) return {};
   std::string points, directions, faces, looks;
   for (const surface::ShadingVertex& v : normals.vertices) {
@@ -50,31 +50,31 @@ std::string matte_part(const driver::Opened& opened, const place::PlacedMesh& pa
     const auto& c = normals.corners[t];
     faces += fmt::format(", <{},{},{}>,{}", c[0], c[1], c[2], part.style[t]);
   }
-  for (const place::SurfaceStyle& look : opened.room->styles)
+  for (const place::SurfaceStyle& look : loaded.interior->styles)
     looks += fmt::format(", texture {{ pigment {{ rgb {} }} finish {{ ambient 0 diffuse 1 emission rgb {} }} }}", vector(look.color),
-                         vector(opened.scene.exposure * opened.scene.ambient));
+                         vector(loaded.scene.exposure * loaded.scene.ambient));
   return fmt::format(
       "mesh2 {{ vertex_vectors {{ {0}{1} }} normal_vectors {{ {0}{2} }} texture_list {{ {3}{4} }} face_indices {{ {5}{6} }} }}\n",
-      normals.vertices.size(), points, directions, opened.room->styles.size(), looks, part.triangles.size(), faces);
+      normals.vertices.size(), points, directions, loaded.interior->styles.size(), looks, part.triangles.size(), faces);
 }
 
 /// Radiance of a matte surface is albedo · E/π with E = Φ·cosθ/(4πr²); POV-Ray shows albedo · c·cosθ · 2/(1 + (r/D)²), which for D ≪ r is
 /// 2cD²/r². So c = exposure · Φ/(8π²D²), too large by D²/r² of itself: with D = 1/1000 less than 1/10,000 from r = 1/10 on.
-std::string point_lamp(const driver::Opened& opened, const light::PlacedLamp& lamp) {
+std::string point_lamp(const driver::LoadedScene& loaded, const light::PlacedLamp& lamp) {
   constexpr double kFadeDistance = 0.001;
-  const geometry::Point p = geometry::inverse(opened.eye.room_from_eye) * lamp.centre.floor;
-  const double gain = opened.scene.exposure / (8 * std::numbers::pi * std::numbers::pi * kFadeDistance * kFadeDistance);
+  const geometry::Point p = geometry::inverse(loaded.eye.room_from_eye) * lamp.centre.floor;
+  const double gain = loaded.scene.exposure / (8 * std::numbers::pi * std::numbers::pi * kFadeDistance * kFadeDistance);
   return fmt::format("light_source {{ {}, rgb {} fade_power 2 fade_distance {} }}\n", vector(p.x, p.y, lamp.centre.z),
                      vector(gain * lamp.power), kFadeDistance);
 }
 
 /// The room and its lamps, instead of the room with its light in an atlas.
-Result<std::string> lit_room(const driver::Opened& opened) {
-  const auto hung = light::place_lamps(opened.scene, opened.room->polygon);
+Result<std::string> lit_room(const driver::LoadedScene& loaded) {
+  const auto hung = light::place_lamps(loaded.scene, loaded.interior->polygon);
   if (!hung) return hung.error();
   std::string text;
-  for (const place::PlacedMesh& part : opened.room->parts) text += matte_part(opened, part);
-  for (const light::PlacedLamp& lamp : hung->lamps) text += point_lamp(opened, lamp);
+  for (const place::PlacedMesh& part : loaded.interior->parts) text += matte_part(loaded, part);
+  for (const light::PlacedLamp& lamp : hung->lamps) text += point_lamp(loaded, lamp);
   return text;
 }
 
@@ -84,19 +84,19 @@ void write(const std::string& path, const std::string& bytes) { std::ofstream(pa
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  const auto opened = driver::open_scene(argv[1], {{"max_bounces", "cover.max_bounces=0"}});
-  if (!opened) return fmt::print(stderr, "{}", to_text(opened.error())), 1;
+  const auto loaded = driver::load(argv[1], {{"max_bounces", "cover.max_bounces=0"}});
+  if (!loaded) return fmt::print(stderr, "{}", to_text(loaded.error())), 1;
   driver::Product product;  // of a lit room only camera and background
   std::string lit;
-  if (opened->scene.lamps.empty()) {
-    auto compiled = driver::compile(*opened, {}, serial_executor());
+  if (loaded->scene.lamps.empty()) {
+    auto compiled = driver::compile(*loaded, {}, serial_executor());
     if (!compiled) return fmt::print(stderr, "{}", to_text(compiled.error())), 1;
     product = std::move(compiled->product);
   } else {
-    auto text = lit_room(*opened);
+    auto text = lit_room(*loaded);
     if (!text) return fmt::print(stderr, "{}", to_text(text.error())), 1;
-    product.eye = opened->eye;
-    product.background = opened->scene.cover.background;
+    product.eye = loaded->eye;
+    product.background = loaded->scene.cover.background;
     lit = std::move(*text);
   }
   const std::string out = argv[2];
@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
     if (!file.name.empty()) write(out.substr(0, out.rfind('/') + 1) + file.name, file.bytes);
     else {
       file.bytes += "global_settings { assumed_gamma 1.0 adc_bailout 0 max_trace_level 60 }\n" + lit;
-      for (const place::PlacedMirror& mirror : opened->room->mirrors) file.bytes += mirror_quad(*opened, mirror);
+      for (const place::PlacedMirror& mirror : loaded->interior->mirrors) file.bytes += mirror_quad(*loaded, mirror);
       write(out, file.bytes);
     }
   }

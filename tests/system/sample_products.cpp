@@ -159,7 +159,7 @@ driver::Product make(const std::string& sample, std::vector<Ball>& balls) {
     product.eye.projection = scene::Projection::cylinder;
     product.eye.fov = Angle::from_degrees(250);
   } else if (sample == "flat") {
-    product.flat_view = true;
+    product.disk_view = true;
     product.eye.room_from_eye =
         geometry::translation_by(geometry::Space::hyperbolic, 0.8, -0.5) * geometry::rotation(geometry::Space::hyperbolic, 1.1);
     product.eye.fov = Angle::from_degrees(100);
@@ -200,7 +200,7 @@ void write_tiling(const std::string& notation, bool klein, const std::string& fo
     if (tiling.room.space == geometry::Space::spherical && (center.w < (klein ? 0.5 : -0.9) || std::abs(center.w) < 0.02)) continue;
     const std::complex<double> at = svg::on_page(page, center);
     if (svg::tile_path(page, pieces, copy.cover_from_room).diameter < 60 || std::abs(at - page.middle) > 0.97 * page.width / 2) continue;
-    fmt::print("{}[{},{},\"{}\"]", first ? "" : ",", at.real(), at.imag(), svg::fill_of(copy, longest, tiling.colouring));
+    fmt::print("{}[{},{},\"{}\"]", first ? "" : ",", at.real(), at.imag(), svg::fill_of(copy, longest, tiling.coloring));
     first = false;
   }
   fmt::print("]}}\n");

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compiler/driver/threads.h"
-#include "compiler/driver/trace.h"
+#include "compiler/driver/trace_film.h"
 #include "compiler/image/srgb.h"
 #include "view.h"
 
@@ -47,12 +47,12 @@ Difference difference(const std::vector<scene::Color>& a, const std::vector<scen
   return {mean_difference(a, b, width, 0), mean_difference(a, b, width, 2)};
 }
 
-driver::Opened open(const char* path, int max_bounces) {
-  auto opened = test::open_or_fail(std::string(ORBC_SOURCE_DIR "/") + path);
-  opened.scene.cover.max_bounces = max_bounces;
-  opened.scene.camera.size = {200, 150};
-  opened.eye = place::make_camera(opened.scene, *opened.room).value();
-  return opened;
+driver::LoadedScene open(const char* path, int max_bounces) {
+  auto loaded = test::open_or_fail(std::string(ORBC_SOURCE_DIR "/") + path);
+  loaded.scene.cover.max_bounces = max_bounces;
+  loaded.scene.camera.size = {200, 150};
+  loaded.eye = place::make_camera(loaded.scene, *loaded.interior).value();
+  return loaded;
 }
 
 }  // namespace
@@ -65,26 +65,26 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
     double error;  ///< mean, steps of 1/255
   };
   const Case c = GENERATE(Case{"tests/bench/scale.yaml", 40, 0.8}, Case{"tests/scenes/verify/triangle-unequal.yaml", 40, 0.2});
-  auto opened = open(c.path, c.max_bounces);
+  auto loaded = open(c.path, c.max_bounces);
   // Seen at 0.97^40 it is as dark as what is around it: near black, steps of sRGB are small.
-  opened.scene.cover.background = {0.049, 0.060, 0.085};
+  loaded.scene.cover.background = {0.049, 0.060, 0.085};
   const Executor executor = driver::parallel_executor();
-  const std::vector<scene::Color> truth = driver::trace(opened, {}, executor).color;
+  const std::vector<scene::Color> truth = driver::trace_film(loaded, {}, executor).color;
   std::uint64_t copies = ~std::uint64_t{0};
   for (const double pixels : {0.0, 1.0, 2.0, 3.0}) {
-    opened.scene.cover.min_pixels = pixels;
-    const auto compiled = driver::compile(opened, {}, executor);
+    loaded.scene.cover.min_pixels = pixels;
+    const auto compiled = driver::compile(loaded, {}, executor);
     REQUIRE(compiled);
-    const Difference off = difference(test::picture(compiled->product), truth, opened.eye.width);
+    const Difference off = difference(test::picture(compiled->product), truth, loaded.eye.width);
     const driver::Report& r = compiled->report;
-    INFO(c.path << ", min_pixels " << pixels << ": " << r.copies << " copies, " << r.curtains << " curtains, weight " << r.weight_merged
+    INFO(c.path << ", min_pixels " << pixels << ": " << r.copies << " copies, " << r.impostors << " curtains, weight " << r.weight_culled
                 << ", mean " << off.mean << ", smooth " << off.smooth);
-    CHECK(r.curtains > 0);  // where paths are cut off, and where copies are left out
-    CHECK((r.weight_merged > 0) == (pixels > 0 && r.copies < copies));
+    CHECK(r.impostors > 0);  // where paths are cut off, and where copies are left out
+    CHECK((r.weight_culled > 0) == (pixels > 0 && r.copies < copies));
     CHECK(off.smooth < c.error);
     CHECK(off.mean < 2 * c.error);
     // Holes would cost as much as what was to be seen there.
-    if (r.weight_merged > 0.01) CHECK(off.smooth < 0.3 * 255 * r.weight_merged);
+    if (r.weight_culled > 0.01) CHECK(off.smooth < 0.3 * 255 * r.weight_culled);
     CHECK(r.copies <= copies);
     if (pixels == 0) copies = r.copies;
   }
@@ -93,26 +93,26 @@ TEST_CASE("copies below some pixels are merged, not lost", "[watertight]") {
 TEST_CASE("closed rooms stay closed when copies are merged", "[watertight]") {
   const char* const path = GENERATE("tests/scenes/verify/square-one.yaml", "tests/scenes/verify/square-adjacent.yaml",
                                     "tests/scenes/verify/pentagon-brick.yaml", "tests/bench/scale.yaml");
-  auto opened = open(path, 30);
-  const auto scene = trace::prepare(*opened.room);
+  auto loaded = open(path, 30);
+  const auto scene = trace::prepare(*loaded.interior);
   std::mt19937 random(20265);
   for (int n = 0; n < 4; ++n) {
-    opened.scene.cover.min_pixels = 4.0 + 10 * n;
-    test::move_eye(opened, random, 100, 75);
+    loaded.scene.cover.min_pixels = 4.0 + 10 * n;
+    test::move_eye(loaded, random, 100, 75);
     const Executor executor = driver::parallel_executor();
-    auto compiled = driver::compile(opened, {}, executor);
+    auto compiled = driver::compile(loaded, {}, executor);
     REQUIRE(compiled);
     if (n == 3) {
       driver::CompileOptions less;
       less.budget = compiled->report.triangles * 2 / 3;
-      compiled = driver::compile(opened, less, executor);
+      compiled = driver::compile(loaded, less, executor);
       REQUIRE(compiled);
       CHECK(compiled->report.triangles <= *less.budget);
     }
-    const test::Holes found = test::holes(opened, compiled->product, scene);
-    INFO(path << " min_pixels " << opened.scene.cover.min_pixels << ": " << compiled->report.copies << " copies, "
-              << compiled->report.curtains << " curtains, " << found.first << ", tolerance " << compiled->report.tolerance_px
-              << " curtains dropped " << compiled->report.curtains_dropped);
+    const test::Holes found = test::holes(loaded, compiled->product, scene);
+    INFO(path << " min_pixels " << loaded.scene.cover.min_pixels << ": " << compiled->report.copies << " copies, "
+              << compiled->report.impostors << " curtains, " << found.first << ", tolerance " << compiled->report.tolerance_px
+              << " curtains dropped " << compiled->report.impostors_dropped);
     CHECK(found.wrong == 0);
   }
 }

@@ -16,17 +16,17 @@ namespace orbc::test {
 
 using geometry::Vector3;
 
-driver::Opened open_or_fail(const std::string& path) {
-  auto opened = driver::open_scene(path);
-  if (!opened) FAIL(path + ": " + to_text(opened.error()));
-  opened->scene.cover.background = {};  // no panels where paths are cut off: they would hide holes
-  return std::move(opened).value();
+driver::LoadedScene open_or_fail(const std::string& path) {
+  auto loaded = driver::load(path);
+  if (!loaded) FAIL(path + ": " + to_text(loaded.error()));
+  loaded->scene.cover.background = {};  // no panels where paths are cut off: they would hide holes
+  return std::move(loaded).value();
 }
 
-void move_eye(driver::Opened& opened, std::mt19937& random, int width, int height) {
+void move_eye(driver::LoadedScene& loaded, std::mt19937& random, int width, int height) {
   std::uniform_real_distribution<double> unit(0, 1);
-  const auto& room = *opened.room;
-  scene::Scene scene = opened.scene;
+  const auto& room = *loaded.interior;
+  scene::Scene scene = loaded.scene;
   scene.camera.size = {width, height};
   scene.camera.projection = scene::Projection::perspective;
   scene.camera.look_at.value = scene::LookDirection{};
@@ -36,15 +36,15 @@ void move_eye(driver::Opened& opened, std::mt19937& random, int width, int heigh
     scene.camera.place.z = room.height * (0.03 + 0.94 * unit(random));
     const auto eye = place::make_camera(scene, room);
     if (!eye) continue;
-    opened.eye = *eye;
+    loaded.eye = *eye;
     const double yaw = 2 * M_PI * unit(random), pitch = std::asin(1.9 * unit(random) - 0.95) * unit(random),
                  roll = unit(random) < 0.5 ? 0 : 6 * unit(random);
     const Vector3 forward{std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)},
         level{std::sin(yaw), -std::cos(yaw), 0};
     const Vector3 upright = cross(level, forward);
-    opened.eye.forward = forward;
-    opened.eye.right = std::cos(roll) * level + std::sin(roll) * upright;
-    opened.eye.up = std::cos(roll) * upright + (-std::sin(roll)) * level;
+    loaded.eye.forward = forward;
+    loaded.eye.right = std::cos(roll) * level + std::sin(roll) * upright;
+    loaded.eye.up = std::cos(roll) * upright + (-std::sin(roll)) * level;
     return;
   }
   FAIL("no place for the eye");
@@ -153,23 +153,23 @@ std::vector<scene::Color> picture(const driver::Product& product) {
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     if (nearest[i].depth > 1e29) continue;
     const auto copy = std::upper_bound(product.copies.begin(), product.copies.end(), nearest[i].triangle,
-                                       [](std::size_t at, const driver::DrawnCopy& c) { return at < c.first_index; });
+                                       [](std::size_t at, const driver::ProductCopy& c) { return at < c.first_index; });
     const auto texel = [](double at, int size) { return std::clamp(static_cast<int>(at * size), 0, size - 1); };
     const image::Image& atlas = product.atlas;
     const std::size_t at = 4 * (static_cast<std::size_t>(texel(nearest[i].v, atlas.height)) * static_cast<std::size_t>(atlas.width) +
                                 static_cast<std::size_t>(texel(nearest[i].u, atlas.width)));
     const auto linear = [&](std::size_t k) { return image::decode_srgb(atlas.rgba[at + k] / 255.0); };
-    colors[i] = scene::Color{linear(0), linear(1), linear(2)} * (copy - 1)->tint;
+    colors[i] = scene::Color{linear(0), linear(1), linear(2)} * (copy - 1)->weight;
   }
   return colors;
 }
 
-Holes holes(const driver::Opened& opened, const driver::Product& product, const trace::TraceScene& scene) {
-  const place::Camera& eye = opened.eye;
+Holes holes(const driver::LoadedScene& loaded, const driver::Product& product, const trace::TraceScene& scene) {
+  const place::Camera& eye = loaded.eye;
   const std::vector<bool> seen = covered(product);
   trace::FollowOptions options;
-  options.max_bounces = opened.scene.cover.max_bounces;
-  options.min_weight = opened.scene.cover.min_weight;
+  options.max_bounces = loaded.scene.cover.max_bounces;
+  options.min_weight = loaded.scene.cover.min_weight;
   Holes found;
   for (int y = 0; y < eye.height; ++y) {
     for (int x = 0; x < eye.width; ++x) {
@@ -192,7 +192,7 @@ Seams seams(const driver::Product& product, const std::vector<cover::Copy>& copi
   using Key = std::array<float, 3>;
   Seams found;
   for (std::size_t c = 0; c < product.copies.size(); ++c) {
-    const driver::DrawnCopy& copy = product.copies[c];
+    const driver::ProductCopy& copy = product.copies[c];
     std::map<std::pair<Key, Key>, int> edges;
     for (std::size_t i = 0; i < copy.index_count; ++i) {
       const std::size_t first = copy.first_index + i / 3 * 3, k = i % 3;

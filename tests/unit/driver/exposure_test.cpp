@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "compiler/driver/compile.h"
-#include "compiler/driver/trace.h"
+#include "compiler/driver/trace_film.h"
 #include "compiler/image/image.h"
 #include "compiler/image/srgb.h"
 
@@ -16,25 +16,25 @@ using namespace orbc;
 
 namespace {
 
-driver::Opened opened(const std::string& more) {
+driver::LoadedScene loaded(const std::string& more) {
   const auto path = std::filesystem::temp_directory_path() / ("orbc-exposure-" + std::to_string(getpid()) + ".yaml");
   std::ofstream(path) << "orbc: 1\norbifold: \"*2222\"\nroom: {floor: {color: \"#b0b0b0\"}, ceiling: {color: \"#b0b0b0\"}, walls: {all: "
                          "{mirror: none, color: \"#b0b0b0\"}}}\n"
                          "camera: {at: {z: 0.45}, size: [8, 6]}\n" +
                              more;
-  auto done = driver::open_scene(path.string());
+  auto done = driver::load(path.string());
   std::filesystem::remove(path);
   REQUIRE(done);
   return std::move(done).value();
 }
 
-int traced(const driver::Opened& scene) {
-  const image::Image image = render::to_image(driver::trace(scene, {}, serial_executor()), scene.scene.exposure);
+int traced(const driver::LoadedScene& scene) {
+  const image::Image image = render::to_image(driver::trace_film(scene, {}, serial_executor()), scene.scene.exposure);
   return image.rgba[4 * (3 * 8 + 4)];
 }
 
 /// Whether a good share of the vertices refers to that colour of the atlas.
-bool exports(const driver::Opened& scene, int expected) {
+bool exports(const driver::LoadedScene& scene, int expected) {
   const driver::Product product = driver::compile(scene, {}, serial_executor()).value().product;
   std::size_t count = 0;
   for (const auto& uv : product.uv) {
@@ -53,11 +53,11 @@ TEST_CASE("exposure means the same in both roads, in scenes without light too", 
     const int expected = static_cast<int>(std::lround(255 * image::encode_srgb(std::min(1.0, exposure * linear))));
     const std::string plain = "exposure: " + std::to_string(exposure) + "\n";
     CAPTURE(exposure, expected);
-    CHECK(traced(opened(plain)) == expected);
-    CHECK(exports(opened(plain), expected));
+    CHECK(traced(loaded(plain)) == expected);
+    CHECK(exports(loaded(plain), expected));
     // A glass ball has light worked out for the atlas, though there is none.
     const std::string ball = plain + "objects: [{box: {size: [0.02, 0.02, 0.02]}, at: {polar: [0.3, 200deg]}, material: glass}]\n";
-    CHECK(traced(opened(ball)) == expected);
-    CHECK(exports(opened(ball), expected));
+    CHECK(traced(loaded(ball)) == expected);
+    CHECK(exports(loaded(ball), expected));
   }
 }

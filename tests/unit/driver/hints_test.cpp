@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "compiler/driver/compile.h"
-#include "compiler/driver/fitting.h"
+#include "compiler/driver/fitting_bounces.h"
 #include "compiler/driver/threads.h"
 #include "compiler/notation/enumerate.h"
 #include "compiler/notation/parse.h"
@@ -27,7 +27,7 @@ struct HintCase {
   const char* code;
   const char* hint;
   Stage stage = Stage::open;
-  std::function<void(driver::CompileOptions&, const std::string&)> option{};   ///< takes the value instead of the scene
+  std::function<void(driver::CompileOptions&, const std::string&)> option{};  ///< takes the value instead of the scene
 };
 
 std::string with_value(std::string scene, const std::string& value) {
@@ -38,24 +38,24 @@ std::string with_value(std::string scene, const std::string& value) {
 Diagnostics faults_of(const HintCase& c, const std::string& value, const std::filesystem::path& folder) {
   const std::string path = (folder / "scene.yaml").string();
   std::ofstream(path) << (c.option ? std::string(c.scene) : with_value(c.scene, value));
-  const auto opened = driver::open_scene(path);
-  if (!opened) return opened.error();
+  const auto loaded = driver::load(path);
+  if (!loaded) return loaded.error();
   if (c.stage == Stage::open) {
     Diagnostics warnings;
-    std::copy_if(opened->notes.begin(), opened->notes.end(), std::back_inserter(warnings),
+    std::copy_if(loaded->notes.begin(), loaded->notes.end(), std::back_inserter(warnings),
                  [](const Diagnostic& d) { return d.severity != Severity::note; });
     return warnings;
   }
   driver::CompileOptions options;
-  options.paint.highlights = false;
+  options.highlights = false;
   options.max_memory = std::uint64_t{64} << 20;
   if (c.option) c.option(options, value);
   const Executor executor = driver::parallel_executor();
   if (c.stage == Stage::plan) {
-    const auto planned = driver::plan(*opened, options, executor);
+    const auto planned = driver::plan(*loaded, options, executor);
     return planned ? Diagnostics{} : planned.error();
   }
-  const auto compiled = driver::compile(*opened, options, executor);
+  const auto compiled = driver::compile(*loaded, options, executor);
   return compiled ? Diagnostics{} : compiled.error();
 }
 
@@ -66,15 +66,13 @@ const HintCase kHints[] = {
     {"an object too large for its place",
      "orbc: 1\norbifold: \"*22222\"\nobjects: [{sphere: {radius: 0.4}, size: @, at: {polar: [0.2, 20deg]}}]\n"
      "camera: {at: {polar: [0.05, 0deg], z: 0.97}, look_at: {azimuth: 0deg, elevation: -10deg}}\n",
-     "0.9",
-     "place.object-outside-room", "^`size: ([0-9.]+)` fits here$"},
+     "0.9", "place.object-outside-room", "^`size: ([0-9.]+)` fits here$"},
     {"an object too large for a corner", "orbc: 1\norbifold: \"*235\"\nobjects: [{box: {size: [0.2, 0.1, 0.1]}, size: @}]\n", "0.5",
      "place.object-outside-room", "^`size: ([0-9.]+)` fits here$"},
     {"an object too high for a sphere's room",
      "orbc: 1\norbifold: \"*222\"\nroom: {height: 0.5}\nobjects: [{cylinder: {radius: 0.3, height: 0.9}, size: @}]\n"
      "camera: {at: {polar: [0.4, 90deg]}}\n",
-     "0.6",
-     "place.object-outside-room", "^`size: ([0-9.]+)` fits here$"},
+     "0.6", "place.object-outside-room", "^`size: ([0-9.]+)` fits here$"},
     {"an object close to a wall", "orbc: 1\norbifold: \"*333\"\nobjects: [{torus: {radius: 0.5, tube: 0.1}, @}]\n",
      "size: 2.6, at: {toward: wall 1, distance: 0.95}", "place.object-outside-room", "^`(size: [0-9.]+)` fits at the centre of the room$"},
     {"a camera outside of the room", "orbc: 1\norbifold: \"*22222\"\ncamera: {at: {polar: [@, 40deg]}}\n", "3", "place.eye-outside-room",
@@ -149,7 +147,7 @@ TEST_CASE("the most bounces are found by halving, whatever is guessed first", "[
   for (int most = -1; most < 20; ++most)
     for (int guess : {0, 5, 19, 40}) {
       int tried = 0;
-      const auto found = driver::most_bounces(20, guess, [&](int bounces) {
+      const auto found = driver::max_fitting_bounces(20, guess, [&](int bounces) {
         ++tried;
         return bounces <= most;
       });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compiler/driver/compile.h"
-#include "compiler/driver/trace.h"
+#include "compiler/driver/trace_film.h"
 
 using namespace orbc;
 
@@ -28,25 +28,25 @@ camera: {at: {polar: [0.15, 40deg], z: 0.45}, look_at: {polar: [0.2, 200deg], z:
 cover: {max_bounces: 2}
 )";
 
-driver::Opened open(const std::string& notation) {
+driver::LoadedScene open(const std::string& notation) {
   const auto path = std::filesystem::path(ORBC_BINARY_DIR) / "instruction_sets_test.yaml";
   std::ofstream(path) << "orbc: 1\norbifold: \"" << notation << "\"" << kRoom;
-  return std::move(driver::open_scene(path.string(), {{"<test>", "bake.quality=draft"}})).value();
+  return std::move(driver::load(path.string(), {{"<test>", "bake.quality=draft"}})).value();
 }
 
 /// All that an exporter gets and all that the tracer draws, as bytes; what surfaces pass on to each other in the picture alone.
 std::string everything(const std::string& notation) {
-  driver::Opened opened = open(notation);
-  const auto compiled = driver::compile(opened, {}, serial_executor());
+  driver::LoadedScene loaded = open(notation);
+  const auto compiled = driver::compile(loaded, {}, serial_executor());
   const driver::Product& product = compiled.value().product;
   std::string bytes;
   append(bytes, product.positions);
   append(bytes, product.uv);
   append(bytes, product.indices);
   append(bytes, product.atlas.rgba);
-  opened = open(notation);
-  opened.scene.integrator = scene::Integrator::path;
-  const render::Film film = driver::trace(opened, {2}, serial_executor());
+  loaded = open(notation);
+  loaded.scene.integrator = scene::Integrator::path;
+  const render::Film film = driver::trace_film(loaded, {2}, serial_executor());
   append(bytes, film.color);
   append(bytes, film.depth);
   append(bytes, film.normal);

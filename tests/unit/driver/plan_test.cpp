@@ -7,8 +7,8 @@
 #include "compiler/bake/atlas.h"
 #include "compiler/cover/unfold.h"
 #include "compiler/driver/compile.h"
-#include "compiler/driver/estimate.h"
 #include "compiler/driver/threads.h"
+#include "compiler/lod/estimate.h"
 
 using namespace orbc;
 
@@ -22,10 +22,10 @@ std::vector<std::string> rooms() {
   return paths;
 }
 
-driver::Opened open_or_fail(const std::string& path) {
-  auto opened = driver::open_scene(path);
-  if (!opened) FAIL(path + ": " + to_text(opened.error()));
-  return std::move(opened).value();
+driver::LoadedScene open_or_fail(const std::string& path) {
+  auto loaded = driver::load(path);
+  if (!loaded) FAIL(path + ": " + to_text(loaded.error()));
+  return std::move(loaded).value();
 }
 
 double bytes_of(std::size_t vertices, std::size_t triangles, std::size_t copies) {
@@ -40,9 +40,9 @@ bool near(std::uint64_t planned, double real) { return std::fabs(static_cast<dou
 TEST_CASE("the plan foresees copies exactly, and triangles, vertices and bytes within a fifth", "[driver][long]") {
   const Executor executor = driver::parallel_executor();
   for (const std::string& path : rooms()) {
-    const auto opened = open_or_fail(path);
-    const auto planned = driver::plan(opened, {}, executor);
-    const auto compiled = driver::compile(opened, {}, executor);
+    const auto loaded = open_or_fail(path);
+    const auto planned = driver::plan(loaded, {}, executor);
+    const auto compiled = driver::compile(loaded, {}, executor);
     REQUIRE(planned);
     REQUIRE(compiled);
     const driver::Report& r = compiled->report;
@@ -57,37 +57,37 @@ TEST_CASE("the plan foresees copies exactly, and triangles, vertices and bytes w
 TEST_CASE("the plan foresees panels and budgets as well", "[driver][long]") {
   const Executor executor = driver::parallel_executor();
   const int which = GENERATE(0, 1, 2, 3);
-  auto opened =
+  auto loaded =
       open_or_fail(std::string(ORBC_SOURCE_DIR) + (which == 3 ? "/tests/scenes/verify/pentagon-brick.yaml" : "/tests/bench/scale.yaml"));
   driver::CompileOptions options;
-  opened.scene.cover.max_bounces = which == 3 ? 4 : 34;
-  opened.scene.cover.min_pixels = which == 2 ? 0 : 3;
-  if (which == 1) opened.expected_background = true;
+  loaded.scene.cover.max_bounces = which == 3 ? 4 : 34;
+  loaded.scene.cover.min_pixels = which == 2 ? 0 : 3;
+  if (which == 1) loaded.scene.cover.background_expected = true;
   if (which >= 2) options.budget = 60'000;
-  const auto planned = driver::plan(opened, options, executor);
-  const auto compiled = driver::compile(opened, options, executor);
+  const auto planned = driver::plan(loaded, options, executor);
+  const auto compiled = driver::compile(loaded, options, executor);
   REQUIRE(planned);
   REQUIRE(compiled);
   const driver::Report& r = compiled->report;
-  INFO(which << ": " << planned->triangles << " planned, " << r.triangles << " made, " << r.curtains << " panels");
+  INFO(which << ": " << planned->triangles << " planned, " << r.triangles << " made, " << r.impostors << " panels");
   CHECK(planned->copies == r.copies);
   CHECK(near(planned->triangles, static_cast<double>(r.triangles)));
   CHECK(near(planned->vertices, static_cast<double>(r.vertices)));
-  if (which < 2) CHECK(r.curtains > 0);
+  if (which < 2) CHECK(r.impostors > 0);
   if (options.budget) CHECK(r.triangles <= *options.budget);
   // What a budget left out is said.
   const bool said = std::any_of(compiled->notes.begin(), compiled->notes.end(),
                                 [](const Diagnostic& note) { return note.code == "driver.copies-left-out"; });
-  CHECK(said == (r.left_out > 0));
-  if (r.left_out > 0) CHECK((r.curtains > 0 || r.curtains_dropped));
+  CHECK(said == (r.culled > 0));
+  if (r.culled > 0) CHECK((r.impostors > 0 || r.impostors_dropped));
 }
 
 TEST_CASE("few copies tell of all", "[driver][long]") {
   const Executor executor = driver::parallel_executor();
   for (const std::string& path : rooms()) {
-    const auto opened = open_or_fail(path);
-    const auto copies = cover::unfold(*opened.room, opened.eye, opened.scene.cover);
-    const auto atlas = bake::make_atlas(*opened.room);
+    const auto loaded = open_or_fail(path);
+    const auto copies = cover::unfold(*loaded.interior, loaded.eye, loaded.scene.cover);
+    const auto atlas = bake::make_atlas(*loaded.interior);
     REQUIRE((copies && atlas));
     std::size_t bent_copies = 0;
     const auto bend_some = [&](const std::vector<std::size_t>& which) {
@@ -95,10 +95,10 @@ TEST_CASE("few copies tell of all", "[driver][long]") {
       for (const std::size_t i : which) some.push_back((*copies)[i]);
       bent_copies = some.size();
       const std::array models{bend::whole_model(atlas->room, atlas->uv)};
-      return bend::bend(atlas->room, {some, models, {}}, opened.eye, {}, executor);
+      return bend::bend(atlas->room, {some, models, {}}, loaded.eye, {}, executor);
     };
-    const auto planned = driver::estimate(cover::contents_of(*opened.room), opened.eye, *copies, opened.scene.cover.max_bounces,
-                                          ~std::uint64_t{0}, bend_some, 1);
+    const auto planned = lod::estimate(cover::contents_of(*loaded.interior), loaded.eye, *copies, bend_some,
+                                       {loaded.scene.cover.max_bounces, ~std::uint64_t{0}, 1});
     REQUIRE(planned);
     CHECK(bent_copies <= 129);
     std::vector<std::size_t> all(copies->size());
@@ -112,16 +112,16 @@ TEST_CASE("few copies tell of all", "[driver][long]") {
 }
 
 TEST_CASE("what exceeds the memory is refused, what fits is not", "[driver]") {
-  const auto opened = open_or_fail(ORBC_SOURCE_DIR "/tests/scenes/verify/pentagon-brick.yaml");
+  const auto loaded = open_or_fail(ORBC_SOURCE_DIR "/tests/scenes/verify/pentagon-brick.yaml");
   driver::CompileOptions options;
-  const auto whole = driver::compile(opened, options, serial_executor());
+  const auto whole = driver::compile(loaded, options, serial_executor());
   REQUIRE(whole);
   const double bytes = bytes_of(whole->report.vertices, whole->report.triangles, whole->report.copies);
   options.max_memory = static_cast<std::uint64_t>(2 * 0.8 * bytes);
-  const auto refused = driver::compile(opened, options, serial_executor());
+  const auto refused = driver::compile(loaded, options, serial_executor());
   REQUIRE(!refused);
   CHECK(refused.error().front().code == "cover.too-much");
   CHECK(refused.error().front().hint == "max_bounces: 4 fits");
   options.max_memory = static_cast<std::uint64_t>(2 * 1.2 * bytes);
-  CHECK(driver::compile(opened, options, serial_executor()));
+  CHECK(driver::compile(loaded, options, serial_executor()));
 }

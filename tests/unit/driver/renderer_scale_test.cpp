@@ -55,8 +55,7 @@ TEST_CASE("a product is scaled exactly, with its eye and its lamps", "[driver]")
   CHECK(driver::scale_for_renderers(product).empty());
   REQUIRE(product.scale > 1);
   for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      CHECK(product.positions[i][k] == static_cast<float>(product.scale * before.positions[i][k]));
+    for (std::size_t k = 0; k < 3; ++k) CHECK(product.positions[i][k] == static_cast<float>(product.scale * before.positions[i][k]));
   CHECK(product.native->lamps[0].at.y == 2 * product.scale);
   CHECK(product.native->lamps[0].intensity.r == product.scale * product.scale);
   CHECK(product.eye.z == before.eye.z);

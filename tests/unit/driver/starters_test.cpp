@@ -8,7 +8,7 @@
 
 #include "compiler/driver/compile.h"
 #include "compiler/driver/threads.h"
-#include "compiler/driver/trace.h"
+#include "compiler/driver/trace_film.h"
 #include "compiler/notation/enumerate.h"
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
@@ -47,23 +47,23 @@ std::string starter_of(const notation::Orbifold& orbifold) {
 /// What is wrong with a starter scene as `orbc check` sees it, or nothing.
 std::string fault_of_starter(const notation::Orbifold& orbifold, const StarterFile& file) {
   const std::string text = starter_of(orbifold);
-  const auto opened = driver::open_scene(file.write(text));
-  if (!opened) return to_text(opened.error());
-  return to_text(opened->notes);
+  const auto loaded = driver::load(file.write(text));
+  if (!loaded) return to_text(loaded.error());
+  return to_text(loaded->notes);
 }
 
 void draw_starter(const notation::Orbifold& orbifold, const StarterFile& file, const Executor& executor) {
   const scene::Overrides small{{"<size>", "camera.size=[64, 48]"}, {"<quality>", "bake.quality=draft"}};
-  const auto opened = driver::open_scene(file.write(starter_of(orbifold)), small);
-  REQUIRE(opened);
+  const auto loaded = driver::load(file.write(starter_of(orbifold)), small);
+  REQUIRE(loaded);
   driver::CompileOptions options;
-  options.paint.highlights = false;   // a starter may have glass: that takes minutes where many are drawn
-  const auto compiled = driver::compile(*opened, options, executor);
+  options.highlights = false;  // a starter may have glass: that takes minutes where many are drawn
+  const auto compiled = driver::compile(*loaded, options, executor);
   if (!compiled) FAIL(to_text(compiled.error()));
   CHECK(compiled->report.triangles > 0);
   CHECK(compiled->report.copies >= 2);
   CHECK(compiled->report.copies <= 3000);
-  const render::Film film = driver::trace(*opened, {}, executor);
+  const render::Film film = driver::trace_film(*loaded, {}, executor);
   double brightest = 0;
   for (const scene::Color& color : film.color) brightest = std::max(brightest, scene::max_channel(color));
   CHECK(brightest > 0.1);
@@ -72,7 +72,7 @@ void draw_starter(const notation::Orbifold& orbifold, const StarterFile& file, c
 /// All of few corners; of more a sample with a seed.
 std::vector<notation::Orbifold> symbols_up_to_order_12() {
   std::vector<notation::Orbifold> all;
-  for (int corners = 1; corners <= 4; ++corners) {   // one corner: *
+  for (int corners = 1; corners <= 4; ++corners) {  // one corner: *
     const auto listed = notation::enumerate(corners, 12, [&](const notation::Orbifold& o, geometry::Space) {
       all.push_back(o);
       return true;

@@ -1,21 +1,22 @@
 // Scenes without lights look flat: a note says why, and the line it offers works.
+#include "compiler/driver/unlit.h"
+
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
-#include "compiler/driver/trace.h"
-#include "compiler/driver/unlit.h"
+#include "compiler/driver/trace_film.h"
 
 using namespace orbc;
 
 namespace {
 
-Result<driver::Opened> open_text(const std::string& text) {
+Result<driver::LoadedScene> open_text(const std::string& text) {
   const auto path = std::filesystem::temp_directory_path() / ("orbc-unlit-" + std::to_string(getpid()) + ".yaml");
   std::ofstream(path) << text;
-  auto done = driver::open_scene(path.string());
+  auto done = driver::load(path.string());
   std::filesystem::remove(path);
   return done;
 }
@@ -45,10 +46,19 @@ TEST_CASE("a scene without lights gets a note with a line that lights it well, i
   const std::string knot = "objects:\n  - torus: {radius: 0.02, tube: 0.004}\n";
   const std::string full =
       "objects:\n  - {cylinder: {radius: 0.2, height: 0.95}, at: centre}\ncamera: {at: {polar: [0.4, 10deg]}, size: [16, 12]}\n";
-  for (const auto& [notation, height, more] : {std::tuple{"*", 0.8, knot}, {"**", 1.0, knot}, {"*22", 0.7, knot}, {"*222", 0.9, knot},
-                                               {"*235", 0.2, knot}, {"*22(30)", 0.05, std::string()}, {"*333", 1.4, knot},
-                                               {"*2222", 0.3, knot}, {"*2222", 8.0, knot}, {"*237", 0.15, knot}, {"*22222", 0.9, knot},
-                                               {"*23456789(10)(11)", 1.6, knot}, {"*(100)(100)", 0.02, std::string()}}) {
+  for (const auto& [notation, height, more] : {std::tuple{"*", 0.8, knot},
+                                               {"**", 1.0, knot},
+                                               {"*22", 0.7, knot},
+                                               {"*222", 0.9, knot},
+                                               {"*235", 0.2, knot},
+                                               {"*22(30)", 0.05, std::string()},
+                                               {"*333", 1.4, knot},
+                                               {"*2222", 0.3, knot},
+                                               {"*2222", 8.0, knot},
+                                               {"*237", 0.15, knot},
+                                               {"*22222", 0.9, knot},
+                                               {"*23456789(10)(11)", 1.6, knot},
+                                               {"*(100)(100)", 0.02, std::string()}}) {
     const auto flat = open_text(room_text(notation, height, more));
     if (!flat) FAIL(to_text(flat.error()));
     const Diagnostics notes = driver::unlit_note(*flat);
@@ -63,8 +73,8 @@ TEST_CASE("a scene without lights gets a note with a line that lights it well, i
     CHECK(driver::unlit_note(*lit).empty());
     // Neither night nor glare. In a room much longer than high the middle is bright and the rest is dim, whatever one lamp gives.
     const bool is_long = (notation == std::string("*2222") && height < 0.5) || notation == std::string("*(100)(100)");
-    const double bright = mean_of_film(driver::trace(*lit, {}, serial_executor()));
-    const double plain = mean_of_film(driver::trace(*flat, {}, serial_executor()));
+    const double bright = mean_of_film(driver::trace_film(*lit, {}, serial_executor()));
+    const double plain = mean_of_film(driver::trace_film(*flat, {}, serial_executor()));
     INFO(bright << " against " << plain);
     CHECK(bright > (is_long ? 0.06 : 0.2) * plain);
     CHECK(bright < 2.5 * plain);

@@ -97,13 +97,13 @@ TEST_CASE("two squares become one primitive with the weights in its vertices", "
 TEST_CASE("copies that lamps light are matte and white, what glows keeps its weight, and every lamp is a node", "[gltf]") {
   driver::Product product = test::two_squares();
   product.normals.assign(product.positions.size(), {-1, 0, 0});
-  product.copies[0].tint = {0.5, 0.5, 0.5};
-  product.copies[1].shine = driver::Shine::glowing;
+  product.copies[0].weight = {0.5, 0.5, 0.5};
+  product.copies[1].shading = native_lights::Shading::emissive;
   product.native.emplace();
-  driver::NativeLamp lamp;
+  native_lights::NativeLamp lamp;
   lamp.at = {1, 2, 3}, lamp.intensity = {0.5, 1, 0.25};
   product.native->lamps.push_back(lamp);
-  lamp.own = false;
+  lamp.direct = false;
   product.native->lamps.push_back(lamp);
   const Glb glb = split(gltf::write_gltf(product)[0].bytes);
   CHECK(contains(glb.json, R"("extensionsUsed":["KHR_materials_unlit","KHR_materials_specular","KHR_lights_punctual"])"));
@@ -121,14 +121,14 @@ TEST_CASE("copies that lamps light are matte and white, what glows keeps its wei
 TEST_CASE("by object each has a node, a mesh and a material under its name, of all its copies", "[gltf]") {
   driver::Product product = test::two_squares();
   const driver::Product once = product;
-  for (const driver::DrawnCopy& copy : once.copies) {  // the same again, as copies of another object
+  for (const driver::ProductCopy& copy : once.copies) {  // the same again, as copies of another object
     const auto first = static_cast<std::ptrdiff_t>(copy.first_vertex);
     const auto cut = [first](const auto& all) { return std::vector(all.begin() + first, all.begin() + first + 4); };
     test::add_copy(product, cut(once.positions), cut(once.uv), {0, 1, 2, 0, 2, 3});
   }
   product.objects = {"floor", "unseen", "\"statue\" 2"};
   for (std::size_t i = 0; i < 4; ++i) product.copies[i].object = i < 2 ? 0 : 2;
-  product.copies[2].again_of = 0, product.copies[3].again_of = 1;
+  product.copies[2].duplicate_of = 0, product.copies[3].duplicate_of = 1;
   const std::string json = split(gltf::write_gltf(product, {.nodes_per_object = true})[0].bytes).json;
   CHECK(contains(json, R"("nodes":[0,1,2]}])"));
   CHECK(contains(json, R"({"name":"floor","mesh":0,"extras":{"orbc_object":"floor","orbc_copies":2}},)"));
@@ -209,7 +209,7 @@ TEST_CASE("a product without triangles is a scene with a camera", "[gltf]") {
     for (const char* key : {"meshes", "materials", "buffers", "accessors", "images", "extensionsUsed"}) CHECK_FALSE(contains(json, key));
   }
   driver::Product hollow = test::two_squares();
-  for (driver::DrawnCopy& copy : hollow.copies) copy.index_count = 0;
+  for (driver::ProductCopy& copy : hollow.copies) copy.index_count = 0;
   CHECK_FALSE(contains(split(gltf::write_gltf(hollow)[0].bytes).json, "meshes"));
 }
 
@@ -221,13 +221,13 @@ TEST_CASE("a panorama's camera says so in its extras", "[gltf]") {
 
 TEST_CASE("an atlas of baked light is looked up bilinearly", "[gltf]") {
   driver::Product product = test::two_squares();
-  product.blended_atlas = true;
+  product.bilinear_atlas = true;
   CHECK(contains(split(gltf::write_gltf(product)[0].bytes).json, R"("samplers":[{"magFilter":9729,"minFilter":9729,)"));
 }
 
 TEST_CASE("weights outside [0, 1] are clamped, as the format demands", "[gltf]") {
   driver::Product product = test::two_squares();
-  product.copies[1].tint = {1.5, -0.25, 1};
+  product.copies[1].weight = {1.5, -0.25, 1};
   const Glb glb = split(gltf::write_gltf(product)[0].bytes);
   CHECK(at<std::uint16_t>(glb.bin, 160 + 32) == 65535);
   CHECK(at<std::uint16_t>(glb.bin, 160 + 34) == 0);

@@ -126,7 +126,7 @@ TEST_CASE("panorama and cylinder cameras are written in the forms that were meas
 
 TEST_CASE("the flat view puts the camera where the eye stands in the disk chart", "[pov]") {
   driver::Product product = test::two_squares();
-  product.flat_view = true;
+  product.disk_view = true;
   product.eye.room_from_eye =
       geometry::translation_by(geometry::Space::hyperbolic, 0, 1) * geometry::rotation(geometry::Space::hyperbolic, std::numbers::pi / 2);
   const std::string text = pov::write_pov(product)[0].bytes;
@@ -157,20 +157,20 @@ TEST_CASE("an atlas of baked light is looked up bilinearly, flat colours are not
   driver::Product product = test::two_squares();
   CHECK_FALSE(contains(pov::write_pov(product)[0].bytes, "interpolate"));
   CHECK(contains(pov::write_pov(product, {.interpolate = true})[0].bytes, "-atlas.png\" interpolate 2 }"));
-  product.blended_atlas = true;
+  product.bilinear_atlas = true;
   CHECK(contains(pov::write_pov(product)[0].bytes, "-atlas.png\" interpolate 2 }"));
 }
 
 TEST_CASE("a copy with lamps of its own is a light group, what glows is not, and a lamp's body casts no shadow", "[pov]") {
   driver::Product product = test::two_squares();
   product.normals.assign(product.positions.size(), {-1, 0, 0});
-  product.copies[1].shine = driver::Shine::lamp;
+  product.copies[1].shading = native_lights::Shading::lamp_body;
   product.native.emplace();
   product.native->ambient = {0.5, 0.5, 0.5};
-  driver::NativeLamp lamp;
+  native_lights::NativeLamp lamp;
   lamp.at = {1, 2, 3}, lamp.intensity = {0.001, 0.002, 0.003};
   product.native->lamps.push_back(lamp);
-  lamp.kind = scene::LampKind::spot, lamp.fades = false, lamp.cone_inner = 1, lamp.cone_outer = 0.5;
+  lamp.kind = scene::LampKind::spot, lamp.inverse_square = false, lamp.cone_inner = 1, lamp.cone_outer = 0.5;
   product.native->lamps.push_back(lamp);
   const std::string text = pov::write_pov(product)[0].bytes;
   CHECK(count(text, "light_group {") == 1);

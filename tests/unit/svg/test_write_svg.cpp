@@ -203,9 +203,9 @@ TEST_CASE("copies on further sheets and copies too small to see are left out", "
 
 TEST_CASE("the room, mirror images and their images differ in colour, by parity and by length", "[svg]") {
   const driver::Tiling tiling = tiling_of("*22222");
-  for (const auto colouring : {driver::Tiling::Colouring::parity, driver::Tiling::Colouring::length}) {
-    const std::string a = svg::fill_of(tiling.copies[0], 2, colouring), b = svg::fill_of(tiling.copies[1], 2, colouring),
-                      c = svg::fill_of(tiling.copies[2], 2, colouring);
+  for (const auto coloring : {driver::Tiling::Coloring::parity, driver::Tiling::Coloring::length}) {
+    const std::string a = svg::fill_of(tiling.copies[0], 2, coloring), b = svg::fill_of(tiling.copies[1], 2, coloring),
+                      c = svg::fill_of(tiling.copies[2], 2, coloring);
     for (const std::string& color : {a, b, c}) CHECK(std::regex_match(color, std::regex("#[0-9a-f]{6}")));
     CHECK(a == svg::kBase);
     CHECK(a != b);

@@ -1,0 +1,55 @@
+#include "compiler/driver/load.h"
+
+#include <iostream>
+#include <iterator>
+#include <utility>
+
+#include "compiler/light/lighting.h"
+#include "compiler/mesh_io/load.h"
+#include "compiler/place/furnish.h"
+#include "compiler/room/realise.h"
+#include "compiler/scene/read.h"
+
+namespace orbc::driver {
+namespace {
+
+constexpr std::size_t kMaxInputBytes = 8 << 20;  // keeps an endless pipe out of the memory; read_scene refuses less
+
+// Like the command line this reads standard input: a scene may come through a pipe.
+Result<scene::ReadResult> read(const std::string& path, const scene::Overrides& overrides) {
+  if (path != "-") return scene::load_scene(path, overrides);
+  auto source = std::make_shared<SourceText>();
+  source->name = "<stdin>";
+  for (std::istreambuf_iterator<char> at(std::cin), end; at != end && source->text.size() < kMaxInputBytes; ++at) source->text += *at;
+  return scene::read_scene(std::shared_ptr<const SourceText>(source), ".", overrides);
+}
+
+void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+}  // namespace
+
+Result<LoadedScene> load(const std::string& path, const scene::Overrides& overrides) {
+  auto read_in = read(path, overrides);
+  if (!read_in) return read_in.error();
+  LoadedScene loaded;
+  loaded.scene = std::move(read_in->scene);
+  loaded.notes = std::move(read_in->notes);
+  const scene::Scene& scene = loaded.scene;
+  const auto room = room::realise(scene.orbifold, scene.room.shape, scene.allow_non_orbifold);
+  if (!room) return located(room.error(), scene.room.shape.span.source ? scene.room.shape.span : scene.span);
+  auto furnished = place::furnish(scene, *room, mesh_io::assets_from_files());
+  if (!furnished) return located(furnished.error(), scene.span);
+  append(loaded.notes, located(furnished->warnings, scene.span));
+  auto lamps = light::prepare_lamps(scene, furnished->interior, light::light_options(scene));
+  if (!lamps) return located(lamps.error(), scene.span);
+  append(loaded.notes, located(lamps->warnings, scene.span));
+  light::add_lamp_bodies(scene, {lamps->lamps, {}}, furnished->interior);
+  loaded.interior = std::make_shared<const place::Interior>(std::move(furnished->interior));
+  loaded.lamps = std::make_shared<const light::LampSet>(std::move(*lamps));
+  const auto eye = place::make_camera(scene, *loaded.interior);
+  if (!eye) return located(eye.error(), scene.camera.span.source ? scene.camera.span : scene.span);
+  loaded.eye = *eye;
+  return loaded;
+}
+
+}  // namespace orbc::driver

@@ -1,0 +1,56 @@
+#include "compiler/driver/trace_film.h"
+
+#include <algorithm>
+
+#include "compiler/bake/diffuse.h"
+#include "compiler/cutoff/estimate.h"
+#include "compiler/render/draw.h"
+
+namespace orbc::driver {
+namespace {
+
+constexpr int kBakeSamplesPerPath = 32;
+
+/// Paths of light between surfaces for each sample of a pixel.
+int path_count(const scene::BakeSpec& spec) { return std::max(1, bake::bake_options(spec).radiosity.samples / kBakeSamplesPerPath); }
+
+}  // namespace
+
+render::DrawOptions draw_options(const PreparedScene& prepared, const place::Camera& eye, const Run& run) {
+  const scene::Scene& scene = prepared.scene();
+  const TraceContext& context = prepared.trace_context(run);
+  const light::LightingContext& lighting = context.lighting;
+  render::DrawOptions draw;
+  draw.lighting = lighting.lit ? &lighting : nullptr;
+  draw.paths = path_count(scene.bake);
+  draw.max_bounces = scene.cover.max_bounces;
+  draw.min_weight = scene.cover.min_weight;
+  draw.background = scene.cover.background;
+  // The film is exposed as a whole; the background is not.
+  if (lighting.exposure > 0) {
+    draw.background = (1 / lighting.exposure) * draw.background;
+    draw.max_radiance = 1 / lighting.exposure;
+  }
+  if (scene.cover.background_expected)
+    draw.background = cutoff::estimate_cutoff({scene, eye, context.tracer, &lighting}, {true, {}, {}}, run.executor).color;
+  return draw;
+}
+
+render::Film trace_film(const PreparedScene& scene, const place::Camera& eye, const TraceOptions& options, const Executor& executor,
+                        const Progress& progress) {
+  const Run run{executor, progress};
+  render::DrawOptions draw = draw_options(scene, eye, run);
+  draw.samples = options.samples;
+  if (options.path_quality) {
+    scene::BakeSpec spec = scene.scene().bake;
+    spec.quality = *options.path_quality;
+    draw.paths = path_count(spec);
+  }
+  return render::draw(scene.trace_context(run).tracer, eye, draw, executor, progress);
+}
+
+render::Film trace_film(const LoadedScene& scene, const TraceOptions& options, const Executor& executor, const Progress& progress) {
+  return trace_film(PreparedScene(scene), scene.eye, options, executor, progress);
+}
+
+}  // namespace orbc::driver
