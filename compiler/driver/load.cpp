@@ -43,8 +43,7 @@ Result<LoadedScene> load(const std::string& path, const scene::Overrides& overri
   auto lamps = light::prepare_lamps(scene, furnished->interior, light::light_options(scene));
   if (!lamps) return located(lamps.error(), scene.span);
   append(loaded.notes, located(lamps->warnings, scene.span));
-  light::add_lamp_bodies(scene, {lamps->lamps, {}}, furnished->interior);
-  loaded.interior = std::make_shared<const place::Interior>(std::move(furnished->interior));
+  loaded.interior = std::make_shared<const place::Interior>(light::with_lamp_bodies(scene, lamps->lamps, std::move(furnished->interior)));
   loaded.lamps = std::make_shared<const light::LampSet>(std::move(*lamps));
   const auto eye = place::make_camera(scene, *loaded.interior);
   if (!eye) return located(eye.error(), scene.camera.span.source ? scene.camera.span : scene.span);

@@ -41,8 +41,8 @@ bool is_free(const LoadedScene& loaded, const scene::Lamp& lamp) {
   lit.room = loaded.scene.room;
   lit.objects = loaded.scene.objects;
   lit.lamps = {lamp};
-  const auto hung = light::place_lamps(lit, loaded.interior->polygon);
-  return hung.has_value() && hung->warnings.empty() && light::lamps_inside_objects(lit, *hung, *loaded.interior).empty();
+  const auto placed = light::place_lamps(lit, loaded.interior->polygon);
+  return placed.has_value() && placed->warnings.empty() && light::lamps_inside_objects(lit, placed->lamps, *loaded.interior).empty();
 }
 
 /// A lamp in the first free place: at the centre below the ceiling, or beside it or lower. Nothing when there is none.

@@ -33,7 +33,7 @@ struct PlacedLamp {
   geometry::Position centre;
   std::vector<geometry::Position> samples;  ///< the centre, then points of the lamp; points and spots have the centre alone
   std::vector<trace::Direction> axes;       ///< per sample: the unit direction that the lamp faces; of tubes that along them
-  std::vector<HotSpot> hot_spots;           ///< filled by prepare_light
+  std::vector<HotSpot> hot_spots;           ///< filled by prepare_lamps
 };
 
 /// The intensity of a lamp in a direction, relative to an isotropic lamp of the same power. Its mean over all directions is 1.
@@ -53,11 +53,12 @@ struct PlacedLamps {
 
 /// Refuses lamps with their centre inside a closed object, which would keep all their light. In: the room without lamp bodies.
 /// Diagnostics: light.lamp-inside-object (names the object).
-[[nodiscard]] Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& lamps, const place::Interior& interior);
+[[nodiscard]] Diagnostics lamps_inside_objects(const scene::Scene& scene, const std::vector<PlacedLamp>& lamps,
+                                               const place::Interior& interior);
 
-/// Adds the bodies of visible lamps to the room, as its last parts: emissive spheres, plates and tubes, which cast no shadow. Points and
-/// spots have no bodies.
-void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place::Interior& interior);
+/// The room with the bodies of visible lamps as its last parts: emissive spheres, plates and tubes, which cast no shadow. Points and spots
+/// have no bodies.
+[[nodiscard]] place::Interior with_lamp_bodies(const scene::Scene& scene, const std::vector<PlacedLamp>& lamps, place::Interior interior);
 /// The lamp of the scene (from 0) whose body a part is, or −1.
 [[nodiscard]] int lamp_of_part(const place::PlacedMesh& part);
 

@@ -104,10 +104,10 @@ int lamp_of_part(const place::PlacedMesh& part) {
   return part.kind == place::PartKind::object && part.wall <= kFirstLampMark ? kFirstLampMark - part.wall : -1;
 }
 
-Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& lamps, const place::Interior& interior) {
+Diagnostics lamps_inside_objects(const scene::Scene& scene, const std::vector<PlacedLamp>& lamps, const place::Interior& interior) {
   Diagnostics errors;
-  for (std::size_t i = 0; i < lamps.lamps.size(); ++i) {
-    const place::PlacedMesh* around = place::enclosing_object(interior, lamps.lamps[i].centre);
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    const place::PlacedMesh* around = place::enclosing_object(interior, lamps[i].centre);
     if (!around) continue;
     const scene::Lamp& lamp = scene.lamps[i];
     errors.push_back(make_error("light.lamp-inside-object",
@@ -118,11 +118,11 @@ Diagnostics lamps_inside_objects(const scene::Scene& scene, const PlacedLamps& l
   return errors;
 }
 
-void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place::Interior& interior) {
+place::Interior with_lamp_bodies(const scene::Scene& scene, const std::vector<PlacedLamp>& lamps, place::Interior interior) {
   const Space space = interior.polygon.space;
-  for (std::size_t i = 0; i < lamps.lamps.size(); ++i) {
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
     const scene::Lamp& spec = scene.lamps[i];
-    const PlacedLamp& lamp = lamps.lamps[i];
+    const PlacedLamp& lamp = lamps[i];
     if (!spec.visible || spec.kind == LampKind::point || spec.kind == LampKind::spot || interior.styles.size() >= 0xffff) continue;
     place::PlacedMesh mesh = body(space, lamp, spec, interior.height);
     mesh.kind = place::PartKind::object;
@@ -138,6 +138,7 @@ void add_lamp_bodies(const scene::Scene& scene, const PlacedLamps& lamps, place:
     interior.styles.push_back(style);
     interior.parts.push_back(std::move(mesh));
   }
+  return interior;
 }
 
 }  // namespace orbc::light

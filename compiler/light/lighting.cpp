@@ -149,7 +149,7 @@ LightOptions light_options(const scene::Scene& scene) {
 Result<LampSet> prepare_lamps(const scene::Scene& scene, const place::Interior& interior, const LightOptions& options) {
   auto placed = place_lamps(scene, interior.polygon);
   if (!placed) return placed.error();
-  if (auto inside = lamps_inside_objects(scene, *placed, interior); !inside.empty()) return inside;
+  if (auto inside = lamps_inside_objects(scene, placed->lamps, interior); !inside.empty()) return inside;
   return with_images(scene, interior, std::move(*placed), options);
 }
 

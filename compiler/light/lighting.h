@@ -52,7 +52,7 @@ struct LightingContext {
   return lighting.lamps->lamps[static_cast<std::size_t>(image.lamp)];
 }
 
-/// Prepares shadow rays and the normals of all parts. In: the room with lamp bodies (add_lamp_bodies); the scene's lamps.
+/// Prepares shadow rays and the normals of all parts. In: the room with lamp bodies (with_lamp_bodies); the scene's lamps.
 [[nodiscard]] LightingContext prepare_light(const scene::Scene& scene, const place::Interior& interior,
                                             std::shared_ptr<const LampSet> lamps, const LightOptions& options = {},
                                             const Executor& executor = serial_executor());
