@@ -15,7 +15,7 @@ const driver::LoadedScene& loaded() {
   return scene;
 }
 
-void bake(benchmark::State& state, scene::BakeQuality quality, scene::Integrator integrator) {
+void bake_room(benchmark::State& state, scene::BakeQuality quality, scene::Integrator integrator) {
   scene::Scene scene = loaded().scene;
   scene.bake.quality = quality;
   scene.integrator = integrator;
@@ -68,9 +68,18 @@ void shadow(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK_CAPTURE(bake, draft, scene::BakeQuality::draft, scene::Integrator::direct)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK_CAPTURE(bake, normal, scene::BakeQuality::normal, scene::Integrator::direct)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK_CAPTURE(bake, normal_path, scene::BakeQuality::normal, scene::Integrator::path)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK_CAPTURE(bake_room, draft, scene::BakeQuality::draft, scene::Integrator::direct)
+    ->Name("bake/draft")
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
+BENCHMARK_CAPTURE(bake_room, normal, scene::BakeQuality::normal, scene::Integrator::direct)
+    ->Name("bake/normal")
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
+BENCHMARK_CAPTURE(bake_room, normal_path, scene::BakeQuality::normal, scene::Integrator::path)
+    ->Name("bake/normal_path")
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 BENCHMARK(camera);
 BENCHMARK(shadow);
 

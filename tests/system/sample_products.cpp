@@ -45,7 +45,7 @@ driver::Product codes() {
     const float top = 0.125f - 0.0625f * static_cast<float>(band), bottom = top - 0.0625f;
     test::add_copy(product, {{1, 0.5f, top}, {1, -0.5f, top}, {1, -0.5f, bottom}, {1, 0.5f, bottom}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
                    {0, 1, 2, 0, 2, 3})
-        .tint = tints[band];
+        .weight = tints[band];
   }
   return product;
 }
@@ -90,7 +90,7 @@ driver::Product many() {
     const float y = 0.02f * static_cast<float>(i % 50 - 25), z = 0.02f * static_cast<float>(i / 50 - 20);
     auto& copy = test::add_copy(product, {{1, y, z}, {1, y + 0.02f, z}, {1, y + 0.02f, z + 0.02f}, {1, y, z + 0.02f}},
                                 {{0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}}, {0, 1, 2, 0, 2, 3});
-    copy.tint = {1 - i / 2000.0, 1, i / 2000.0};
+    copy.weight = {1 - i / 2000.0, 1, i / 2000.0};
     copy.word.assign(static_cast<std::size_t>(i % 12), static_cast<std::uint8_t>(i % 5));
     copy.bounces = i % 12;
   }
@@ -120,7 +120,7 @@ void print_facts(const driver::Product& product, const std::vector<Ball>& balls)
                balls[i].color[2]);
   fmt::print("],\"tints\":[");
   for (std::size_t i = 0; i < product.copies.size() && i < 4; ++i)
-    fmt::print("{}[{},{},{}]", i ? "," : "", product.copies[i].tint.r, product.copies[i].tint.g, product.copies[i].tint.b);
+    fmt::print("{}[{},{},{}]", i ? "," : "", product.copies[i].weight.r, product.copies[i].weight.g, product.copies[i].weight.b);
   fmt::print("]}}\n");
 }
 
