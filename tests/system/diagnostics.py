@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Diagnostics that only the whole program raises, or that need large or odd input: each by the smallest scene that shows it."""
-import json
 import os
 import pathlib
 import signal
@@ -25,31 +24,24 @@ def many_materials(where, count):
     return name
 
 
-def posed_by_a_skeleton(where):
-    """A triangle as glTF with a skin."""
-    import base64
-    import struct
-    points = struct.pack('<9f', 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0.1)
-    (where / 'posed.gltf').write_text(json.dumps({
-        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], 'nodes': [{'mesh': 0, 'skin': 0}, {}], 'skins': [{'joints': [1]}],
-        'meshes': [{'primitives': [{'attributes': {'POSITION': 0}}]}],
-        'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3', 'min': [0, 0, 0], 'max': [0.1, 0.1, 0.1]}],
-        'bufferViews': [{'buffer': 0, 'byteLength': len(points)}],
-        'buffers': [{'byteLength': len(points), 'uri': 'data:application/octet-stream;base64,' + base64.b64encode(points).decode()}]}))
-    return 'posed.gltf'
+def with_bumps(where):
+    """An OBJ file whose material has a bump map."""
+    (where / 'bumps.mtl').write_text('newmtl rough\nKd 0.5 0.5 0.5\nmap_Bump leaf.png\n')
+    (where / 'bumps.obj').write_text('mtllib bumps.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0.1\nusemtl rough\nf 1 2 3\n')
+    return 'bumps.obj'
 
 
 with folder() as name:
     where = pathlib.Path(name)
     (where / 'statue.ply').write_bytes((ROOT / 'examples/meshes/statue_small.ply').read_bytes())
     (where / 'leaf.png').write_bytes((ROOT / 'docs/pictures/materials.png').read_bytes())
-    small = many_materials(where, 300)
+    most = many_materials(where, 65_600)
     full = many_materials(where, 255)
     glb = ['-f', 'glb', '-o', where / 'out.glb']
     cases = [
-        ('mesh.too-many-looks', 0, f'objects: [{{mesh: {small}, size: 0.2}}]', ['check']),
+        ('mesh.too-many-looks', 1, f'objects: [{{mesh: {most}, size: 0.2}}]', ['check']),
         ('place.too-many-looks', 1, 'objects:\n' + f'  - {{mesh: {full}, size: 0.2}}\n' * 258, ['check']),
-        ('mesh.ignored', 0, f'objects: [{{mesh: {posed_by_a_skeleton(where)}, size: 0.2}}]', ['check']),
+        ('mesh.ignored', 0, f'objects: [{{mesh: {with_bumps(where)}, size: 0.2}}]', ['check']),
         ('place.no-uv', 0, 'objects: [{mesh: statue.ply, size: 0.2, material: {texture: leaf.png}}]', ['check']),
         ('place.masked-shell', 1, 'room: {floor: {color: red, opacity_mask: leaf.png}}', ['check']),
         ('driver.glowing-mirror', 1, 'room: {walls: {all: {mirror: {glow: gray}}}}', ['compile', *glb]),
