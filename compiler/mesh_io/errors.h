@@ -11,8 +11,8 @@ namespace orbc::mesh_io {
 constexpr double kMaxCoordinate = 1e15;
 /// Texture coordinates beyond this are refused.
 constexpr double kMaxUv = 1e6;
-/// A mesh has no more materials than this.
-constexpr std::size_t kMaxMaterials = 65'535;
+/// A mesh has no more materials than this, so that a room with it has fewer surfaces than place/ can count (65,535).
+constexpr std::size_t kMaxMaterials = 60'000;
 
 // The diagnostics that several formats share. `name` is the file, `where` the place in it.
 [[nodiscard]] Diagnostic not_finite(const std::string& name, const std::string& where);

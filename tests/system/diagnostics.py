@@ -39,7 +39,7 @@ with folder() as name:
     full = many_materials(where, 255)
     glb = ['-f', 'glb', '-o', where / 'out.glb']
     cases = [
-        ('mesh.too-many-looks', 1, f'objects: [{{mesh: {most}, size: 0.2}}]', ['check']),
+        ('mesh.too-many-looks', 0, f'objects: [{{mesh: {most}, size: 0.2}}]', ['check']),
         ('place.too-many-looks', 1, 'objects:\n' + f'  - {{mesh: {full}, size: 0.2}}\n' * 258, ['check']),
         ('mesh.ignored', 0, f'objects: [{{mesh: {with_bumps(where)}, size: 0.2}}]', ['check']),
         ('place.no-uv', 0, 'objects: [{mesh: statue.ply, size: 0.2, material: {texture: leaf.png}}]', ['check']),
