@@ -74,7 +74,9 @@ with folder() as where, folder() as temporary, folder() as away:
     slow = subprocess.Popen([PIPE, '+W8000', '+H8000', '+A0.0', '+AM1', '+R9', '-o', out], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
     slow.stdin.write(scene)
     slow.stdin.close()
-    time.sleep(1.5)
+    deadline = time.monotonic() + 60   # it has begun when its temporary folder holds files
+    while not any(files for _, _, files in os.walk(temporary)) and time.monotonic() < deadline:
+        time.sleep(0.05)
     slow.send_signal(signal.SIGTERM)
     check(slow.wait(timeout=20) == 3, 'it ends when told to')
     check(os.listdir(temporary) == [], 'and cleans up then too')
