@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.max_triangles = 100'000;
   options.images.max_bytes = 1 << 20;
   if (data[0] % 7 == 6) {
-    const auto image = image_io::decode_image(bytes, "fuzz", options.images);
+    const auto image = orbc::image_io::decode_image(bytes, "fuzz", options.images);
     if (image && image->rgba.size() != std::size_t{4} * static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height))
       std::abort();
     return 0;
