@@ -69,6 +69,7 @@ function(orbc_room name)
   if(NOT ROOM_INTERNAL)
     install(TARGETS orbc_${name} EXPORT orbc ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
     install(DIRECTORY ${CMAKE_SOURCE_DIR}/${ROOM_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orbc/${ROOM_FOLDER} COMPONENT development
-      FILES_MATCHING PATTERN "*.h")
+      FILES_MATCHING PATTERN "*.h"
+      PATTERN "*-inl.h" EXCLUDE PATTERN "mesh/collapse_module.h" EXCLUDE PATTERN "mesh/decimation_state.h" EXCLUDE PATTERN "mesh_io/gltf_*.h" EXCLUDE)  # these read headers of libraries that nobody needs who links the room
   endif()
 endfunction()
