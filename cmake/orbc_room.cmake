@@ -68,8 +68,12 @@ function(orbc_room name)
   set_target_properties(orbc_${name} PROPERTIES EXPORT_NAME ${name})
   if(NOT ROOM_INTERNAL)
     install(TARGETS orbc_${name} EXPORT orbc ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    # Headers that read OpenMesh, tinygltf or Highway serve the room's own files alone: who links the room needs none of these libraries.
     install(DIRECTORY ${CMAKE_SOURCE_DIR}/${ROOM_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/orbc/${ROOM_FOLDER} COMPONENT development
       FILES_MATCHING PATTERN "*.h"
-      PATTERN "*-inl.h" EXCLUDE PATTERN "mesh/collapse_module.h" EXCLUDE PATTERN "mesh/decimation_state.h" EXCLUDE PATTERN "mesh_io/gltf_*.h" EXCLUDE)  # these read headers of libraries that nobody needs who links the room
+      PATTERN "*-inl.h" EXCLUDE
+      PATTERN "mesh/collapse_module.h" EXCLUDE
+      PATTERN "mesh/decimation_state.h" EXCLUDE
+      PATTERN "mesh_io/gltf_*.h" EXCLUDE)
   endif()
 endfunction()

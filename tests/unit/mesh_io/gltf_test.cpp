@@ -8,6 +8,7 @@
 
 using namespace orbc;
 using namespace orbc::mesh;
+using namespace orbc::mesh_io;
 using namespace orbc::mesh_io::test;
 
 namespace {

@@ -13,6 +13,7 @@
 
 using namespace orbc;
 using namespace orbc::mesh;
+using namespace orbc::mesh_io;
 using namespace orbc::mesh_io::test;
 
 namespace {
@@ -98,7 +99,7 @@ TEST_CASE("polygons are cut into triangles inside of them, also when they have i
     REQUIRE(loaded);
     for (const auto& t : loaded->mesh.triangles) {
       const auto& p = loaded->mesh.positions;
-      CHECK(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).z > 0);
+      CHECK(geometry::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).z > 0);
     }
     return analyse(loaded->mesh).area;
   };
