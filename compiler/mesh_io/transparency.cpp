@@ -47,8 +47,10 @@ UnblendedMaterial without_blending(mesh::Material material, double alpha, const 
 }
 
 Diagnostic blending_warning(const std::string& name) {
-  return make_warning("mesh.blended", name + ": some surfaces are blended by their alpha; where it is below one half they are left out",
-                      "give the object a `material` of its own, such as glass");
+  return make_warning(
+      "mesh.blended",
+      name + ": some surfaces are blended by their alpha; where it is below one half they are left out, unless that leaves nothing",
+      "give the object a `material` of its own, such as glass");
 }
 
 mesh::Mesh without_invisible_triangles(mesh::Mesh mesh) {
