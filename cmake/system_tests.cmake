@@ -44,5 +44,8 @@ orbc_system_test(system_scripts scripts.py 1200 fast)
 if(NOT ORBC_SANITIZE)  # packages are made of what people use
   orbc_system_test(system_package package.py 900 render)
 endif()
+# Which copies there are, word by word, in the golden texts of tests/golden.
+add_test(NAME golden COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/scripts/update_golden --check --programs $<TARGET_FILE_DIR:orbc>)
+set_tests_properties(golden PROPERTIES LABELS fast TIMEOUT 600)
 orbc_system_test(system_golden_files golden_files.py 600 fast)
 orbc_system_test(system_same_bytes same_bytes.py 1800 render)

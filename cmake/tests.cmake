@@ -76,6 +76,6 @@ if(ORBC_FUZZ)  # tests/fuzz/<room>_fuzz.cpp; everything it links is instrumented
 endif()
 include(cmake/system_tests.cmake)
 # The longest first, so that no core waits for one of them in the end.
-foreach(test watertight_thousand system_examples system_verify_rooms system_command_line)
+foreach(test watertight_thousand system_examples system_verify_rooms system_flat_scenes system_same_bytes system_plans system_edges system_picture_files)
   set_tests_properties(${test} PROPERTIES COST 100)
 endforeach()
