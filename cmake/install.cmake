@@ -8,6 +8,7 @@ set(ORBC_SHARE ${CMAKE_BINARY_DIR}/share)
 
 install(TARGETS orbc RUNTIME COMPONENT program)
 install(PROGRAMS scripts/povray-pipe scripts/render_blender.py DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
+install(FILES scripts/drawing.py DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
 install(FILES schema/orbc-scene.schema.json schema/diagnostics.md DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
 install(DIRECTORY examples DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program RENAME copyright)
@@ -24,7 +25,7 @@ endforeach()
 
 # The build folder is laid out the same way, so that the program finds in it what it finds when installed.
 file(MAKE_DIRECTORY ${ORBC_SHARE}/orbc ${ORBC_SHARE}/manual)
-foreach(shipped scripts/povray-pipe scripts/render_blender.py)
+foreach(shipped scripts/povray-pipe scripts/render_blender.py scripts/drawing.py)
   get_filename_component(name ${shipped} NAME)
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${shipped} ${ORBC_SHARE}/orbc/${name} SYMBOLIC)
 endforeach()

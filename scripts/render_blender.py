@@ -14,22 +14,19 @@ Exit code: 0 done, 1 the scene is wrong, 2 usage, 3 the machine (no Blender, can
 """
 import argparse
 import os
-import shutil
+import re
 import signal
 import subprocess
 import sys
-import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from drawing import Failure, check_output, check_scene, deliver, main_program, private_folder, run, say, strip_dates, take_scene
 
 try:
     import bpy
 except ImportError:
     bpy = None
-
-
-class Failure(Exception):
-    def __init__(self, code, message):
-        super().__init__(message)
-        self.code = code
 
 
 def size(text):
@@ -45,8 +42,13 @@ def positive(text):
     return int(text)
 
 
+class Parser(argparse.ArgumentParser):
+    def print_help(self, file=None):
+        print(self.format_help(), end='')   # argparse itself keeps quiet about a full disk
+
+
 def parse_arguments(arguments):
-    parser = argparse.ArgumentParser(prog='render_blender', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog='render_blender', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('scene', nargs='?', default='-', help='GLB or glTF file; - is standard input')
     parser.add_argument('-o', '--output', default='-', help='PNG to write; - is standard output, fd:N an open file descriptor')
     parser.add_argument('--samples', type=positive, default=1, help='samples a pixel (1: its centre)')
@@ -58,50 +60,10 @@ def parse_arguments(arguments):
 
 # ---- outside Blender: start it ----------------------------------------------------------------------------------------------
 
-def start_blender(arguments):
-    options = parse_arguments(arguments)
-    if options.output == '-' and sys.stdout.isatty():
-        raise Failure(2, 'the picture would go to the terminal; say -o PICTURE.png')
-    if options.scene == '-' and sys.stdin.isatty():
-        raise Failure(2, 'no scene: pipe one in or name a file (see --help)')
-    passed = list(arguments)
-    descriptors = ()
-    if options.output == '-':
-        # Blender talks on its standard output; the picture takes another way out.
-        descriptors = (os.dup(sys.stdout.fileno()),)
-        passed += ['-o', f'fd:{descriptors[0]}']
-    elif options.output.startswith('fd:'):
-        descriptors = (int(options.output[3:]),)
-    command = ['blender', '-b', '--factory-startup', '-noaudio', '--python-exit-code', '3', '-P', os.path.abspath(__file__), '--', *passed]
-    try:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, pass_fds=descriptors, check=False)
-    except FileNotFoundError:
-        raise Failure(3, 'blender is not installed (Debian: apt-get install blender python3-numpy)') from None
-    said = done.stdout.decode('utf-8', 'replace')
-    if options.verbose:
-        sys.stderr.write(said)
-    elif done.returncode:
-        lines = said.splitlines()
-        plain = [line for line in lines if line.startswith('render_blender:')]
-        print('\n'.join(plain or lines[-40:]), file=sys.stderr)
-    if done.returncode < 0:
-        raise Failure(3, f'Blender was ended by signal {-done.returncode}')
-    return done.returncode
-
-
-# ---- inside Blender -----------------------------------------------------------------------------------------------------------
-
-def local_file(scene, folder):
-    """The path of the scene: the importer needs a real file (it cannot read /dev/stdin)."""
-    if scene != '-':
-        if not os.path.isfile(scene):
-            raise Failure(1, f'no such file: {scene}')
-        return scene
+def local_file(folder):
+    """The scene on standard input as a file: the importer needs a real one."""
     path = os.path.join(folder, 'scene.glb')
-    with open(path, 'wb') as file:
-        shutil.copyfileobj(sys.stdin.buffer, file, 1 << 20)
-        if file.tell() == 0:
-            raise Failure(1, 'the scene on standard input is empty; did the command before the pipe fail?')
+    take_scene(path)
     with open(path, 'rb') as file:
         if file.read(4) == b'glTF':
             return path
@@ -109,6 +71,71 @@ def local_file(scene, folder):
     os.rename(path, text_path)
     return text_path
 
+
+def plain_path(scene, folder):
+    """A name in `folder` that leads to the scene and, for what it names, to its folder. Blender takes a backslash for a slash."""
+    folder_of_scene, name = os.path.split(os.path.abspath(scene))
+    if scene.lower().endswith('.glb'):   # it names no other files
+        os.symlink(os.path.join(folder_of_scene, name), os.path.join(folder, 'scene.glb'))
+        return 'scene.glb'
+    if '\\' in name:
+        raise Failure(1, f'Blender cannot read a name with a backslash: {scene}')
+    os.symlink(folder_of_scene, os.path.join(folder, 'beside'))
+    return os.path.join('beside', name)
+
+
+def output_of(options):
+    if options.output == '-':
+        return None
+    return int(options.output[3:]) if re.fullmatch(r'fd:[0-9]+', options.output) else options.output
+
+
+def start_blender():
+    options = parse_arguments(sys.argv[1:])
+    given = None if options.scene == '-' else options.scene
+    out = output_of(options)
+    if given is not None:
+        check_scene(given)
+    elif os.isatty(0):
+        raise Failure(2, 'no scene: pipe one in or name a file (see --help)')
+    if not isinstance(out, int):
+        check_output(out, given)
+    with private_folder('render_blender.') as folder:
+        name = os.path.basename(local_file(folder)) if given is None else plain_path(given, folder)
+        draw_outside(options, folder, name)
+        deliver(os.path.join(folder, 'drawn.png'), out)
+    return 0
+
+
+def draw_outside(options, folder, name):
+    """Has Blender draw what `name` in `folder` leads to into drawn.png. Blender sees no names but plain ones, and what it leaves behind goes
+    with the folder."""
+    os.symlink(os.path.realpath(__file__), os.path.join(folder, 'render_blender.py'))
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    inside = f'/proc/self/fd/{descriptor}'
+    words = [f'{inside}/{name}', '-o', f'{inside}/drawn.png', '--samples', str(options.samples)]
+    words += ['--size', '{}x{}'.format(*options.size)] if options.size else []
+    words += ['--threads', str(options.threads)] if options.threads else []
+    command = ['blender', '-b', '--factory-startup', '-noaudio', '--python-exit-code', '3', '-P', f'{inside}/render_blender.py', '--', *words]
+    try:
+        code, said = run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, pass_fds=(descriptor,), env={**os.environ, 'TMPDIR': inside})
+    except FileNotFoundError:
+        raise Failure(3, 'blender is not installed (Debian: apt-get install blender python3-numpy)') from None
+    finally:
+        os.close(descriptor)
+    said = said.replace(f'{inside}/{name}', 'the scene on standard input' if options.scene == '-' else options.scene)
+    if options.verbose:
+        say(said)
+    elif code:
+        lines = said.splitlines()
+        say('\n'.join([line for line in lines if line.startswith('render_blender:')] or lines[-40:]) + '\n')
+    if code < 0:
+        raise Failure(3, f'Blender was ended by signal {-code}')
+    if code:
+        raise SystemExit(code)
+
+
+# ---- inside Blender -----------------------------------------------------------------------------------------------------------
 
 def load(path, name):
     try:
@@ -197,48 +224,19 @@ def set_render(scene, options, picture_size):
     cycles.transparent_max_bounces = 256  # holes behind holes
 
 
-# What a PNG needs for its pixels and their colours; the rest are dates, names and notes, with which no two pictures are the same.
-KEPT_CHUNKS = (b'IHDR', b'PLTE', b'tRNS', b'gAMA', b'cHRM', b'sRGB', b'iCCP', b'sBIT', b'IDAT', b'IEND')
-
-
-def strip_dates(picture):
-    """Leaves the pixels of a PNG file alone: same scene, same bytes."""
-    kept = picture + '.kept'
-    with open(picture, 'rb') as source, open(kept, 'wb') as target:
-        target.write(source.read(8))
-        while True:
-            head = source.read(8)
-            if len(head) < 8:
-                break
-            length, kind = int.from_bytes(head[:4], 'big'), head[4:]
-            body = source.read(length + 4)
-            if kind in KEPT_CHUNKS:
-                target.write(head + body)
-    os.replace(kept, picture)
-
-
-def deliver(picture, out):
-    if out.startswith('fd:'):
-        with open(picture, 'rb') as file, os.fdopen(int(out[3:]), 'wb') as target:
-            shutil.copyfileobj(file, target)
-        return
-    part = os.path.join(os.path.dirname(os.path.abspath(out)), f'.{os.path.basename(out)}.{os.getpid()}.part')
-    try:
-        shutil.copyfile(picture, part)
-        os.replace(part, out)
-    finally:
-        if os.path.exists(part):
-            os.unlink(part)
-
-
-def draw(arguments):
-    options = parse_arguments(arguments)
-    if options.output == '-':
+def draw():
+    options = parse_arguments(sys.argv[sys.argv.index('--') + 1:] if '--' in sys.argv else [])
+    out = output_of(options)
+    if out is None:
         raise Failure(2, 'inside Blender standard output is full of its messages; use -o FILE or -o fd:3 3>FILE')
-    if not options.output.startswith('fd:') and not os.path.isdir(os.path.dirname(os.path.abspath(options.output))):
-        raise Failure(3, f'no such folder: {os.path.dirname(options.output)}')
-    with tempfile.TemporaryDirectory(prefix='render_blender.') as folder:
-        camera = load(local_file(options.scene, folder), 'the scene on standard input' if options.scene == '-' else options.scene)
+    given = None if options.scene == '-' else options.scene
+    if given is not None:
+        check_scene(given)
+    if not isinstance(out, int):
+        check_output(out, given)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(3))   # leave through `finally`, so that the temporary folder goes too
+    with private_folder('render_blender.') as folder:
+        camera = load(given or local_file(folder), given or 'the scene on standard input')
         set_camera(camera)
         scene = bpy.context.scene
         set_background(scene, list(camera.get('orbc_background', (0, 0, 0))))
@@ -248,32 +246,9 @@ def draw(arguments):
         if not os.path.exists(scene.render.filepath):
             raise Failure(3, 'Blender wrote no picture')
         strip_dates(scene.render.filepath)
-        deliver(scene.render.filepath, options.output)
-
-
-def main():
-    if bpy is None:
-        return start_blender(sys.argv[1:])
-    draw(sys.argv[sys.argv.index('--') + 1:] if '--' in sys.argv else [])
+        deliver(scene.render.filepath, out)
     return 0
 
 
 if __name__ == '__main__':
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(3))
-    code = 3
-    try:
-        code = main()
-    except SystemExit as stop:  # argparse
-        code = stop.code if isinstance(stop.code, int) else 2
-    except Failure as failure:
-        print(f'render_blender: {failure}', file=sys.stderr)
-        code = failure.code
-    except (OSError, MemoryError) as error:
-        print(f'render_blender: {error}', file=sys.stderr)
-    except KeyboardInterrupt:
-        print('render_blender: interrupted', file=sys.stderr)
-        code = 130
-    sys.stderr.flush()
-    sys.stdout.flush()
-    if code or bpy is None:
-        sys.exit(code)
+    main_program('render_blender', start_blender if bpy is None else draw)

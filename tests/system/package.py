@@ -11,7 +11,7 @@ need('cpack', 'dpkg-deb', 'dpkg-shlibdeps', 'file', 'povray', 'cmake', 'ninja')
 BUILD = BIN.resolve().parent
 
 PROGRAM = ('bin/orbc', 'share/man/man1/orbc.1.gz', 'share/bash-completion/completions/orbc', 'share/zsh/vendor-completions/_orbc',
-           'share/fish/vendor_completions.d/orbc.fish', 'share/orbc/povray-pipe', 'share/orbc/render_blender.py',
+           'share/fish/vendor_completions.d/orbc.fish', 'share/orbc/povray-pipe', 'share/orbc/render_blender.py', 'share/orbc/drawing.py',
            'share/orbc/orbc-scene.schema.json', 'share/orbc/diagnostics.md', 'share/orbc/examples/lit-pentagon/scene.yaml',
            'share/orbc/examples/meshes/statue.ply', 'share/doc/orbc/copyright', 'share/doc/orbc/THIRD_PARTY.md')
 DEVELOPMENT = ('include/orbc/compiler/driver/compile.h', 'include/orbc/exporters/pov/write_pov.h', 'liborbc_driver.a', 'cmake/orbc/orbcConfig.cmake')
