@@ -38,10 +38,16 @@ const std::vector<ExportFormat>& export_formats() {
        .engine = "povray",
        .holds_exr = true,
        .lights_copies_apart = true,
+       .has_side_files = true,
        .write = write_pov_files,
        .estimated_bytes = pov::bytes_of},
       {.name = "glb", .engine = "blender", .has_nodes = true, .write = write_glb, .estimated_bytes = gltf::bytes_of},
-      {.name = "gltf", .can_be_single_file = false, .has_nodes = true, .write = write_gltf_with_files, .estimated_bytes = gltf::bytes_of},
+      {.name = "gltf",
+       .can_be_single_file = false,
+       .has_nodes = true,
+       .has_side_files = true,
+       .write = write_gltf_with_files,
+       .estimated_bytes = gltf::bytes_of},
       {.name = "svg"},
   };
   return kFormats;

@@ -24,6 +24,7 @@ struct ExportFormat {
   bool holds_exr = false;            ///< its atlas may be an EXR
   bool lights_copies_apart = false;  ///< native lamps light their own copy alone
   bool has_nodes = false;
+  bool has_side_files = false;       ///< unless all is in a single file
   /// Null for the format of tilings, which shows no product.
   std::vector<driver::File> (*write)(const driver::Product& product, const ExportOptions& options) = nullptr;
   /// About how many bytes that takes, without the atlas. Null for the format of tilings.

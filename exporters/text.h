@@ -79,7 +79,8 @@ class Pen {
 }
 
 /// A name for a file beside the main output that every format and file system can spell: letters, digits, `.`, `_` and `-` of ASCII.
-/// Names that had to change get a short hash of the original, so that two scenes never share one atlas.
+/// Names that had to change, or are so long that no word could be put behind them, get a short hash of the original, so that two scenes
+/// never share one atlas.
 [[nodiscard]] inline std::string plain_name(std::string_view stem) {
   std::string name(stem);
   std::uint32_t hash = 2166136261u;  // FNV-1a
@@ -90,6 +91,8 @@ class Pen {
     if (!plain) c = '_', changed = true;
   }
   if (name.empty()) return "scene";
+  constexpr std::size_t kLongest = 200;  // of 255 bytes that file systems allow
+  if (name.size() > kLongest) name.resize(kLongest), changed = true;
   if (!changed && name[0] != '.' && name[0] != '-') return name;
   char digits[8];
   const auto end = std::to_chars(digits, digits + sizeof digits, hash, 16).ptr;

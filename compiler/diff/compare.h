@@ -17,7 +17,7 @@ enum class Form { pov, svg, json, gltf, glb, picture };
 /// json:        as trees; whole numbers exactly.
 /// gltf, glb:   the JSON as a tree, but for where things lie in buffers; each accessor decoded, element by element; pictures as pixels.
 /// picture:     PNG and JPEG in steps of 1/255 of sRGB codes; of EXR R, G, B, A so, too, and other channels as numbers.
-/// Names of files that carry their file's own stem (a-atlas.png of a.pov) count as the same.
+/// Names of files count as the same that differ only in their file's own stem and in the digits that say what is in them.
 /// Diagnostics: diff.cannot-read, diff.bad-file.
 [[nodiscard]] Result<Finding> compare(Form form, const Source& a, const Source& b, const Limits& limits);
 

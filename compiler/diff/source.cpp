@@ -21,6 +21,16 @@ Result<std::string> read_whole(const std::string& path) {
   return told;
 }
 
+// "a-atlas-0a1b2c3d4e5f.png" without the digits that say what is in the file: that is compared by itself.
+std::string without_hash(std::string_view name) {
+  constexpr std::size_t kHash = 13;  // with its hyphen
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot < kHash || name[dot - kHash] != '-') return std::string(name);
+  const std::string_view digits = name.substr(dot - kHash + 1, kHash - 1);
+  if (digits.find_first_not_of("0123456789abcdef") != std::string_view::npos) return std::string(name);
+  return std::string(name.substr(0, dot - kHash)) + std::string(name.substr(dot));
+}
+
 }  // namespace
 
 Result<Source> read_source(const std::string& path) {
@@ -40,12 +50,12 @@ Result<std::string> read_beside(const Source& source, std::string_view reference
 }
 
 bool same_name(std::string_view a, const Source& in_a, std::string_view b, const Source& in_b) {
-  if (a == b) return true;
+  if (without_hash(a) == without_hash(b)) return true;
   if (in_a.stem.empty() || in_b.stem.empty()) return false;
   if (a.substr(0, in_a.stem.size()) != in_a.stem || b.substr(0, in_b.stem.size()) != in_b.stem) return false;
   a.remove_prefix(in_a.stem.size());
   b.remove_prefix(in_b.stem.size());
-  return a == b && (a.empty() || !is_alphanumeric(a.front()));
+  return without_hash(a) == without_hash(b) && (a.empty() || !is_alphanumeric(a.front()));
 }
 
 std::string without_stem(std::string_view text, const Source& source) {

@@ -20,8 +20,8 @@ struct Source {
 /// The bytes of a file that `source` names, beside it or below. Diagnostics: diff.cannot-read.
 [[nodiscard]] Result<std::string> read_beside(const Source& source, std::string_view reference);
 
-/// Whether two names say the same, each in its file: equal, or alike but for the files' own stems at the beginning, as in "a-atlas.png" of
-/// a.pov and "b-atlas.png" of b.pov.
+/// Whether two names say the same, each in its file: alike but for the files' own stems at the beginning and for the digits before the
+/// ending that say what is in a file, as in "a-atlas-0a1b2c3d4e5f.png" of a.pov and "b-atlas-a0b1c2d3e4f5.png" of b.pov.
 [[nodiscard]] bool same_name(std::string_view a, const Source& in_a, std::string_view b, const Source& in_b);
 /// A text with the file's own names replaced (STEM.pov, STEM-atlas.…), to be compared with another file's.
 [[nodiscard]] std::string without_stem(std::string_view text, const Source& source);

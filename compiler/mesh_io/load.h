@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,7 +15,13 @@ struct LoadOptions {
   std::uint64_t max_file_bytes = std::uint64_t{1} << 30;  ///< of the file and of each kind of thing it refers to, together
   std::uint64_t max_triangles = 20'000'000;               ///< after triangulation and instancing; vertices: three times as many
   image_io::ImageLimits images;
+  std::function<void(const std::string& path)> on_read;   ///< called with every file that is read: meshes, and what they refer to
 };
+
+/// Calls `options.on_read`, if there is one.
+inline void tell_read(const LoadOptions& options, const std::string& path) {
+  if (options.on_read) options.on_read(path);
+}
 
 /// Reads a mesh file: OBJ with its MTL, PLY, OFF, STL, GLB or glTF. The ending of the path says which.
 /// Makes:        one triangle mesh in the file's own axes (glTF: y up), positions in double precision. Polygons are triangulated. A vertex

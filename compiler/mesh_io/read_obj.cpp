@@ -221,7 +221,9 @@ Result<ObjData> read_statements(std::string_view text, const ReadContext& contex
 
 Result<std::string> read_library(const std::string& reference, const ReadContext& context) {
   auto path = find_referred_file(reference, context);
-  return path ? files::read_file(*path, kMaxMtlBytes) : Result<std::string>(path.error());
+  if (!path) return path.error();
+  tell_read(context.options, *path);
+  return files::read_file(*path, kMaxMtlBytes);
 }
 
 /// Reads the libraries that the file names. A statement is one name with blanks, or else several names.

@@ -16,6 +16,7 @@
 #include "compiler/image_io/png.h"
 #include "exporters/gltf/json.h"
 #include "exporters/gltf/layout.h"
+#include "exporters/side_file.h"
 #include "exporters/standpoint.h"
 
 namespace orbc::gltf {
@@ -457,15 +458,15 @@ std::vector<driver::File> write_gltf(const Product& product, const GltfOptions& 
     files.push_back({"", make_glb(product, layout, png, make_json(product, layout, options, {}))});
     return files;
   }
-  const std::string stem = exporters::plain_name(options.name);
-  const Uris uris{stem + ".bin", stem + "-atlas.png"};
-  files.push_back({"", make_json(product, layout, options, uris)});
+  std::string bin;
   if (layout.total_bytes > 0) {
-    std::string bin;
     bin.reserve(layout.total_bytes);
     append_geometry(product, layout, bin);
-    files.push_back({uris.bin, std::move(bin)});
   }
+  const Uris uris{exporters::side_file_name({options.name, "gltf", "", ".bin"}, bin),
+                  exporters::side_file_name({options.name, "gltf", "-atlas", ".png"}, png)};
+  files.push_back({"", make_json(product, layout, options, uris)});
+  if (!bin.empty()) files.push_back({uris.bin, std::move(bin)});
   if (!png.empty()) files.push_back({uris.atlas, std::move(png)});
   return files;
 }

@@ -7,7 +7,7 @@
 namespace orbc::gltf {
 
 struct GltfOptions {
-  std::string name = "scene";   ///< the output's stem: names of the nodes and, unless `binary`, NAME.bin and NAME-atlas.png beside it
+  std::string name = "scene";   ///< the output's stem: unless `binary` the files beside it are called after it (side_file.h)
   bool binary = true;           ///< one GLB; false: .gltf with .bin and .png beside it
   bool nodes_per_copy = false;  ///< a node, mesh and material a copy, to be clicked in an editor; slow to import from 5,000 copies on
   bool nodes_per_object = false;  ///< a node, mesh and material an object, of all its copies; for products that are made by object

@@ -13,6 +13,7 @@
 #include "compiler/image_io/exr.h"
 #include "compiler/image_io/png.h"
 #include "exporters/pov/base64.h"
+#include "exporters/side_file.h"
 #include "exporters/standpoint.h"
 #include "exporters/text.h"
 
@@ -75,11 +76,16 @@ struct AtlasFiles {
   driver::File atlas, mask;
 };
 
-AtlasFiles atlas_files(const driver::Product& product, const std::string& name) {
+// In the scene itself they need no name that nobody else has.
+std::string name_beside(const PovOptions& options, const char* kind, const char* ending, const std::string& bytes) {
+  if (options.inline_atlas) return exporters::plain_name(options.name) + kind + ending;
+  return exporters::side_file_name({options.name, "pov", kind, ending}, bytes);
+}
+
+AtlasFiles atlas_files(const driver::Product& product, const PovOptions& options) {
   AtlasFiles files;
   if (product.atlas.rgba.empty()) return files;
   const bool exr = product.depth == scene::AtlasFormat::exr;
-  files.atlas.name = name + (exr ? "-atlas.exr" : "-atlas.png");
   if (product.atlas16.rgb.empty()) {
     image::Image opaque = product.atlas;
     for (std::size_t i = 3; i < opaque.rgba.size(); i += 4) opaque.rgba[i] = 255;
@@ -87,7 +93,11 @@ AtlasFiles atlas_files(const driver::Product& product, const std::string& name) 
   } else {
     files.atlas.bytes = exr ? image_io::encode_exr(product.atlas16) : image_io::encode_png(product.atlas16);
   }
-  if (product.masked) files.mask = {name + "-mask.png", image_io::encode_alpha(product.atlas)};
+  files.atlas.name = name_beside(options, "-atlas", exr ? ".exr" : ".png", files.atlas.bytes);
+  if (product.masked) {
+    files.mask.bytes = image_io::encode_alpha(product.atlas);
+    files.mask.name = name_beside(options, "-mask", ".png", files.mask.bytes);
+  }
   return files;
 }
 
@@ -197,7 +207,7 @@ void write_lit_copy(Pen& pen, const driver::Product& product, std::size_t number
 
 std::vector<driver::File> write_pov(const driver::Product& product, const PovOptions& options) {
   ORBC_CHECK(product.uv.size(), ==, product.positions.size());
-  AtlasFiles beside = atlas_files(product, exporters::plain_name(options.name));
+  AtlasFiles beside = atlas_files(product, options);
 
   std::string scene;
   // Measured: 31 bytes a position, 19 a uv, 22 a triangle; a little more is cheap, a second growth of the string is not.

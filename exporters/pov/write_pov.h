@@ -7,7 +7,7 @@
 namespace orbc::pov {
 
 struct PovOptions {
-  std::string name = "scene";   ///< the output's stem: the atlas stands beside it as NAME-atlas.png
+  std::string name = "scene";   ///< the output's stem: files beside it are called after it (side_file.h)
   bool inline_atlas = false;    ///< for pipes: the atlas rides along as base64 in a comment, scripts/povray-pipe unpacks it
   bool interpolate = false;     ///< bilinear in linear light instead of the nearest texel; always so for a blended atlas
 };

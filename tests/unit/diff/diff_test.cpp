@@ -107,6 +107,11 @@ TEST_CASE("comments count, but for the names of the files themselves", "[diff]")
   CHECK_FALSE(compared(Form::pov, "// Draw: povray +Ia.pov +W8\n#declare A = \"a-atlas\";",
                        "// Draw: povray +Ib.pov +W8\n#declare A = \"b-atlas\";")
                   .differs);
+  // What is in a file is compared by itself; the digits in its name say no more than that it differs.
+  const std::string one = R"({"uri": "a-0123456789ab.bin"})", same = R"({"uri": "b-ba9876543210.bin"})";
+  CHECK_FALSE(compared(Form::json, one, same).differs);
+  CHECK(compared(Form::json, one, R"({"uri": "b-ba987654321.bin"})").differs);
+  CHECK(compared(Form::json, one, R"({"uri": "c-ba9876543210.bin"})").differs);
   CHECK(compared(Form::pov, "// size: +W800\n", "// size: +W801\n").differs);
   CHECK_FALSE(compared(Form::pov, "// weight 0.5\n", "// weight 0.5000000001\n", 1e-6).differs);
   CHECK(compared(Form::pov, "/* open", "/* opened").differs);

@@ -4,6 +4,7 @@
 #include "compiler/image_io/png.h"
 #include "exporters/gltf/json.h"
 #include "exporters/gltf/write_gltf.h"
+#include "exporters/side_file.h"
 #include "tests/support/products.h"
 
 using namespace orbc;
@@ -193,11 +194,11 @@ TEST_CASE("with a node per copy each copy has its name, facts and factor", "[glt
 TEST_CASE("the text form has its buffer and atlas beside it", "[gltf]") {
   const std::vector<driver::File> files = gltf::write_gltf(test::two_squares(), {.name = "squares", .binary = false});
   REQUIRE(files.size() == 3);
-  CHECK(files[1].name == "squares.bin");
+  CHECK(files[1].name == exporters::side_file_name({"squares", "gltf", "", ".bin"}, files[1].bytes));
   CHECK(files[1].bytes.size() == 248);
-  CHECK(files[2].name == "squares-atlas.png");
-  CHECK(contains(files[0].bytes, R"("buffers":[{"byteLength":248,"uri":"squares.bin"}])"));
-  CHECK(contains(files[0].bytes, R"("images":[{"name":"atlas","uri":"squares-atlas.png"}])"));
+  CHECK(files[2].name == exporters::side_file_name({"squares", "gltf", "-atlas", ".png"}, files[2].bytes));
+  CHECK(contains(files[0].bytes, R"("buffers":[{"byteLength":248,"uri":")" + files[1].name + R"("}])"));
+  CHECK(contains(files[0].bytes, R"("images":[{"name":"atlas","uri":")" + files[2].name + R"("}])"));
 }
 
 TEST_CASE("a product without triangles is a scene with a camera", "[gltf]") {

@@ -5,6 +5,7 @@
 #include "compiler/image_io/png.h"
 #include "exporters/pov/base64.h"
 #include "exporters/pov/write_pov.h"
+#include "exporters/side_file.h"
 #include "tests/support/products.h"
 
 using namespace orbc;
@@ -33,7 +34,8 @@ TEST_CASE("two squares become this scene, byte by byte", "[pov]") {
   const std::vector<driver::File> files = pov::write_pov(test::two_squares(), {.name = "squares"});
   REQUIRE(files.size() == 2);
   CHECK(files[0].name.empty());
-  CHECK(files[1].name == "squares-atlas.png");
+  const std::string atlas_name = exporters::side_file_name({"squares", "pov", "-atlas", ".png"}, files[1].bytes);
+  CHECK(files[1].name == atlas_name);
   const double half = std::tan(Angle::from_degrees(75).radians / 2);
   const std::string right = fmt::format("{}", -(2 * half)), up = fmt::format("{}", 2 * half * 0.75);
   CHECK(files[0].bytes == R"(// orbc: *2222, 2 copies, 4 triangles
@@ -49,7 +51,7 @@ camera {
   right <0,)" + right + R"(,0>
   up <0,0,)" + up + R"(>
 }
-#declare OrbcAtlas = pigment { uv_mapping image_map { png "squares-atlas.png" } }
+#declare OrbcAtlas = pigment { uv_mapping image_map { png ")" + atlas_name + R"(" } }
 // copy 0: word "", 0 bounces, sheet 0, weight <1,1,1>, distance 0
 mesh2 {
 vertex_vectors { 4,
@@ -156,9 +158,9 @@ TEST_CASE("a product without atlas is white times its weights", "[pov]") {
 TEST_CASE("an atlas of baked light is looked up bilinearly, flat colours are not", "[pov]") {
   driver::Product product = test::two_squares();
   CHECK_FALSE(contains(pov::write_pov(product)[0].bytes, "interpolate"));
-  CHECK(contains(pov::write_pov(product, {.interpolate = true})[0].bytes, "-atlas.png\" interpolate 2 }"));
+  CHECK(contains(pov::write_pov(product, {.interpolate = true})[0].bytes, ".png\" interpolate 2 }"));
   product.bilinear_atlas = true;
-  CHECK(contains(pov::write_pov(product)[0].bytes, "-atlas.png\" interpolate 2 }"));
+  CHECK(contains(pov::write_pov(product)[0].bytes, ".png\" interpolate 2 }"));
 }
 
 TEST_CASE("a copy with lamps of its own is a light group, what glows is not, and a lamp's body casts no shadow", "[pov]") {
@@ -189,7 +191,9 @@ TEST_CASE("an atlas with holes has a mask beside it, one of more bits its own fi
   const auto masked = pov::write_pov(product, {.name = "leaf"});
   REQUIRE(masked.size() == 3);
   CHECK(contains(masked[0].bytes,
-                 "image_pattern { png \"leaf-mask.png\" } pigment_map { [0.5 rgbt 1] [0.5 image_map { png \"leaf-atlas.png\" }] }"));
+                 "image_pattern { png \"" + masked[1].name + "\" } pigment_map { [0.5 rgbt 1] [0.5 image_map { png \"" + masked[2].name +
+                     "\" }] }"));
+  CHECK((masked[1].name.rfind("leaf-mask-", 0) == 0 && masked[2].name.rfind("leaf-atlas-", 0) == 0));
   const image::Image mask = image_io::decode_png(masked[1].bytes, "PNG").value(),
                      atlas = image_io::decode_png(masked[2].bytes, "PNG").value();
   CHECK((mask.rgba[0] == 0 && mask.rgba[4] == 255));
@@ -201,14 +205,14 @@ TEST_CASE("an atlas with holes has a mask beside it, one of more bits its own fi
   product.depth = scene::AtlasFormat::srgb16;
   product.atlas16 = {2, 1, {65535, 32896, 0, 2570, 5140, 7710}};
   const auto deep = pov::write_pov(product, {.name = "deep"});
-  CHECK(deep[1].name == "deep-atlas.png");
+  CHECK(exporters::is_side_file(deep[1].name, deep[1].bytes, "deep", "pov"));
   CHECK(deep[1].bytes[24] == 16);  // bit depth in IHDR
   CHECK(image_io::decode_png(deep[1].bytes, "PNG").value().rgba == std::vector<std::uint8_t>{255, 128, 0, 255, 10, 20, 30, 255});
   product.depth = scene::AtlasFormat::exr;
   const auto exr = pov::write_pov(product, {.name = "deep"});
-  CHECK(exr[1].name == "deep-atlas.exr");
+  CHECK(exr[1].name == exporters::side_file_name({"deep", "pov", "-atlas", ".exr"}, exr[1].bytes));
   CHECK(exr[1].bytes.substr(0, 4) == "\x76\x2f\x31\x01");
-  CHECK(contains(exr[0].bytes, "image_map { exr \"deep-atlas.exr\" }"));
+  CHECK(contains(exr[0].bytes, "image_map { exr \"" + exr[1].name + "\" }"));
 }
 
 TEST_CASE("titles and names cannot break out of comments and strings", "[pov]") {
