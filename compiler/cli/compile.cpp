@@ -10,7 +10,9 @@
 #include "compiler/cli/output.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
+#include "compiler/cli/write_export.h"
 #include "compiler/driver/compile.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/unlit.h"
@@ -31,22 +33,6 @@ const exporters::ExportFormat& format_of(const CompileArguments& a) {
                                                  exporters::export_format_names(".")));
 }
 
-std::string stem_of(const std::string& output) {
-  const std::string stem = output == "-" ? "scene" : std::filesystem::path(output).stem().string();
-  return stem.empty() ? "scene" : stem;
-}
-
-// The main output last: whoever sees it may rely on the files it names. Makes: how many bytes that one has.
-std::uint64_t write_files(const std::vector<driver::File>& files, const std::string& output) {
-  const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-  for (const driver::File& file : files)
-    if (!file.name.empty()) write_output((folder / file.name).string(), file.bytes);
-  std::uint64_t bytes = 0;
-  for (const driver::File& file : files)
-    if (file.name.empty()) write_output(output, file.bytes), bytes = file.bytes.size();
-  return bytes;
-}
-
 driver::Tiling::Model model_of(const std::string& name) {
   return name == "klein" ? driver::Tiling::Model::klein : name == "plane" ? driver::Tiling::Model::plane : driver::Tiling::Model::disk;
 }
@@ -55,15 +41,16 @@ int write_tiling(const driver::LoadedScene& loaded, const CompileArguments& a, c
   const auto tiling =
       driver::tile(loaded, model_of(a.model), a.color == "length" ? driver::Tiling::Coloring::length : driver::Tiling::Coloring::parity);
   if (!tiling) return print(tiling.error(), common), kSceneWrong;
-  const std::uint64_t bytes = write_files(svg::write_svg(*tiling), a.output);
+  const std::vector<driver::File> files = svg::write_svg(*tiling);
+  const std::uint64_t bytes = write_export(files, {a.output, exporters::find_export_format("svg"), {}, {}}, loaded.files);
   print_result({{"output", a.output}, {"format", "svg"}, {"bytes", bytes}, {"orbifold", tiling->title}, {"copies", tiling->copies.size()}},
                loaded.notes, common);
-  if (!common.quiet) fmt::print(stderr, "{}: {} copies of {}\n", shown(a.output), tiling->copies.size(), tiling->title);
+  if (!common.quiet) say(fmt::format("{}: {} copies of {}\n", shown(a.output), tiling->copies.size(), tiling->title));
   return kDone;
 }
 
 exporters::ExportOptions export_options(const CompileArguments& a) {
-  return {stem_of(a.output), a.output == "-", a.nodes_per_copy, a.nodes_per_object};
+  return {stem_of(a.output), is_stream(a.output), a.nodes_per_copy, a.nodes_per_object};
 }
 
 void check_nodes(const CompileArguments& a, const exporters::ExportFormat& format) {
@@ -126,19 +113,21 @@ void warn_of_size(const cover::Plan& plan, const exporters::ExportFormat& format
 }
 
 int write_plan(const driver::PreparedScene& scene, const CompileArguments& a, const Common& common) {
-  const auto plan = driver::plan(scene, scene.loaded().eye, compile_options(a), driver::parallel_executor(common.threads, &interrupted()));
+  const auto plan = driver::plan(scene, scene.loaded().eye, compile_options(a), driver::parallel_executor(common.threads));
   if (!plan) return print(plan.error(), common), kSceneWrong;
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(driver::plan_json(*plan));
   const driver::Amount amount = amount_of(*plan, native_lights::uses_native_lights(scene.scene()));
   json["pov_bytes"] = exporters::find_export_format("pov")->estimated_bytes(amount);
   json["gltf_bytes"] = exporters::find_export_format("gltf")->estimated_bytes(amount);
-  write_output("-", json.dump(2) + "\n");
+  write_standard_output(json.dump(2) + "\n");
   return kDone;
 }
 
 void refuse_what_cannot_be(const CompileArguments& a, const exporters::ExportFormat& format, const Common& common) {
   if (a.output == "-" && !format.can_be_single_file)
     throw UsageError("a .gltf has files beside it and cannot go to standard output; use -f glb");
+  if (!a.plan && !format.can_be_single_file && is_stream(a.output))
+    throw UsageError(fmt::format("a .gltf has files beside it and cannot go to {}, which is no ordinary file; use -f glb", a.output));
   if ((a.output == "-") + (a.report == "-") + (common.json ? 1 : 0) > 1)
     throw UsageError("only one thing can go to standard output: the scene, the report or --json");
 }
@@ -159,7 +148,7 @@ Result<Exported> export_scene(const driver::PreparedScene& scene, const CompileA
     return make_error("gltf.no-exr", "glTF holds its atlas as PNG or JPEG, not as EXR", "use `atlas: 16` (--atlas 16), or write .pov",
                       scene.scene().span);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const Executor executor = driver::parallel_executor(common.threads, &interrupted());
+  const Executor executor = driver::parallel_executor(common.threads);
   driver::CompileOptions options = compile_options(a);
   Diagnostics large;
   if (!a.max_triangles || *a.max_triangles > 4'000'000)  // fewer are small
@@ -171,8 +160,8 @@ Result<Exported> export_scene(const driver::PreparedScene& scene, const CompileA
   if (!compiled) return compiled.error();
   Exported result{compiled->report, driver::report_json(*compiled), notes_of(*compiled, format), large, 0};
   report(bar.progress(), "writing", 0, 0);
-  result.bytes = write_files(format.write(compiled->product, export_options(a)), a.output);
-  if (!a.report.empty()) write_output(a.report, result.report_json);
+  result.bytes = write_export(format.write(compiled->product, export_options(a)), {a.output, &format, a.report, result.report_json},
+                              scene.loaded().files);
   return result;
 }
 
@@ -182,8 +171,10 @@ int compile(const CompileArguments& a, const Common& common) {
   refuse_what_cannot_be(a, format, common);
   check_nodes(a, format);
   (void)compile_options(a);  // mistakes on the command line come before those of the scene
+  if (!a.plan) check_outputs({a.output, a.report});
   auto loaded = driver::load(a.scene.scene, overrides_of(a.scene));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
+  refuse_inputs({a.output, a.report}, loaded->files);
   const unsigned target = a.plan ? kPov | kGltf : !format.write ? kSvg : format.has_nodes ? kGltf : kPov;
   append(loaded->notes, without_effect(common.given, {target, a.plan, a.view == "disk", false, 1}, *loaded));
   print(loaded->notes, common);
@@ -205,7 +196,7 @@ int compile(const CompileArguments& a, const Common& common) {
   }
   const driver::Report& r = made->report;
   if (!common.quiet)
-    fmt::print(stderr, "{}: {} copies, {} triangles, true within {:.3g} px\n", shown(a.output), r.copies, r.triangles, r.error_bound_px);
+    say(fmt::format("{}: {} copies, {} triangles, true within {:.3g} px\n", shown(a.output), r.copies, r.triangles, r.error_bound_px));
   return kDone;
 }
 

@@ -3,7 +3,7 @@
 
 #include "compiler/cli/define.h"
 #include "compiler/cli/manual.h"
-#include "compiler/cli/output.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 
 namespace orbc::cli {
@@ -31,7 +31,7 @@ void define_completion(Program& program) {
   c->add_option("shell", *shell, "bash, zsh or fish")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}))->type_name("SHELL");
   c->footer("Examples:\n  orbc completion bash > ~/.local/share/bash-completion/completions/orbc\n  source <(orbc completion bash)");
   program.commands.push_back({c, [shell, &app = program.app](const Common&) {
-                                write_output("-", completion(app, *shell));
+                                write_standard_output(completion(app, *shell));
                                 return kDone;
                               }});
 }
@@ -40,7 +40,7 @@ void define_man(Program& program) {
   CLI::App* c = program.app.add_subcommand("man", "Print the man page");
   c->footer("Examples:\n  orbc man > orbc.1\n  orbc man | man -l -");
   program.commands.push_back({c, [&app = program.app](const Common&) {
-                                write_output("-", man_page(app));
+                                write_standard_output(man_page(app));
                                 return kDone;
                               }});
 }

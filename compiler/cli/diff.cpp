@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/cli/commands.h"
-#include "compiler/cli/output.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/diff/compare.h"
 
@@ -69,8 +69,8 @@ int diff(const DiffArguments& a, const Common& common) {
   if (!left || !right) return kMachine;
   const auto finding = diff::compare(*left_form, *left, *right, {a.within, a.pixels});
   if (!finding) return print(finding.error(), told), kMachine;
-  if (common.json) write_output("-", json(*finding, a));
-  else if (!common.quiet) write_output("-", summary(*finding, a));
+  if (common.json) write_standard_output(json(*finding, a));
+  else if (!common.quiet) write_standard_output(summary(*finding, a));
   return finding->differs ? kSceneWrong : kDone;
 }
 

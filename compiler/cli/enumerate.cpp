@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "compiler/cli/commands.h"
-#include "compiler/cli/output.h"
-#include "compiler/cli/progress_bar.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/notation/euler.h"
 #include "compiler/notation/print.h"
@@ -46,7 +45,7 @@ int enumerate(const EnumerateArguments& a, const Common& common) {
                   *count == 1 ? "" : "s", a.corners == 1 ? 0 : a.corners, a.max_order);
   if (*count > kManyLines && !a.all)
     throw UsageError(told + ": more than a million lines; --all prints them, a smaller --max-order or --space makes them fewer");
-  if (!common.quiet && !common.json) fmt::print(stderr, "{}\n", told);
+  if (!common.quiet && !common.json) say(fmt::format("{}\n", told));
   std::string text = common.json ? "[" : "";
   bool first = true;
   const auto done = notation::enumerate(a.corners, a.max_order, [&](const notation::Orbifold& orbifold, geometry::Space space) {
@@ -56,17 +55,16 @@ int enumerate(const EnumerateArguments& a, const Common& common) {
     text += line_of(orbifold, name, common.json, first);
     first = false;
     if (text.size() > kBlock) {
-      write_output("-", text);
+      write_standard_output(text);
       text.clear();
     }
-    if (interrupted()) throw Cancelled();
     return true;
   });
   if (!done) {
     print(done.error(), common);
     return kSceneWrong;
   }
-  write_output("-", text + (common.json ? "\n]\n" : ""));
+  write_standard_output(text + (common.json ? "\n]\n" : ""));
   return kDone;
 }
 

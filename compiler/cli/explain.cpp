@@ -8,7 +8,7 @@
 
 #include "compiler/cli/commands.h"
 #include "compiler/cli/embedded.h"
-#include "compiler/cli/output.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 
 namespace orbc::cli {
@@ -98,15 +98,15 @@ int explain(const ExplainArguments& a, const Common& common) {
   if (common.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Explained& row : rows) list.push_back({{"code", row.code}, {"cause", row.cause}, {"cure", row.cure}});
-    write_output("-", list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    write_standard_output(list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return kDone;
   }
-  write_output("-", rows.size() == 1 ? explanation(rows.front()) : list_of(rows));
+  write_standard_output(rows.size() == 1 ? explanation(rows.front()) : list_of(rows));
   return kDone;
 }
 
 int schema(const Common&) {
-  write_output("-", scene_schema());
+  write_standard_output(scene_schema());
   return kDone;
 }
 

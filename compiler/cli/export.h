@@ -20,7 +20,7 @@ struct Exported {
 /// How scenes are prepared for the exports of a command.
 [[nodiscard]] driver::PrepareOptions prepare_options(const CompileArguments& arguments);
 
-/// Compiles a scene for its own camera and writes the files of a renderer: pov, glb or gltf, to `arguments.output`.
+/// Compiles a scene for its own camera and writes the files of a renderer: pov, glb or gltf, to `arguments.output`, and the report.
 /// Diagnostics: those of the driver; gltf.no-exr; among the notes gltf.native-lights-shared. Printed while it works: cli.large-export.
 [[nodiscard]] Result<Exported> export_scene(const driver::PreparedScene& scene, const CompileArguments& arguments,
                                             const std::string& format_name, const Common& common);

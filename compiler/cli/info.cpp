@@ -5,7 +5,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/expanded_star.h"
 #include "compiler/cli/isometries_json.h"
-#include "compiler/cli/output.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/notation/classify.h"
 #include "compiler/notation/euler.h"
@@ -138,8 +138,8 @@ int info(const InfoArguments& a, const Common& common) {
   Diagnostics notes;
   const auto facts = facts_of(a, notes);
   if (!facts) return print(facts.error(), common), kSceneWrong;
-  if (!common.quiet) for (const Diagnostic& note : notes) std::fputs(to_text(note).c_str(), stderr);
-  write_output("-", common.json ? json_text(*facts, a.copies) : people_text(*facts));
+  if (!common.quiet) for (const Diagnostic& note : notes) say(to_text(note));
+  write_standard_output(common.json ? json_text(*facts, a.copies) : people_text(*facts));
   return kDone;
 }
 

@@ -29,7 +29,7 @@ The command line is wrong.
 The machine: disk, memory, or a renderer that is missing or fails.
 .TP
 .B 130
-Stopped by Ctrl\-C; nothing was written.
+Stopped by Ctrl\-C, SIGTERM or SIGHUP. The message says whether the output had been written; it is never half there.
 )";
 
 constexpr const char* kFiles = R"(.SH FILES

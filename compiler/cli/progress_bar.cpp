@@ -2,18 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
-#include <cstdio>
+#include "compiler/cli/streams.h"
 
 namespace orbc::cli {
 namespace {
-
-std::atomic<bool> g_interrupted{false};  // the one global: a signal handler can reach nothing else
-
-extern "C" void on_interrupt(int signal) {
-  g_interrupted.store(true);
-  std::signal(signal, SIG_DFL);
-}
 
 std::string scaled(double value) {
   return value >= 1e9 ? fmt::format("{:.2f} G", value / 1e9) : value >= 1e6 ? fmt::format("{:.2f} M", value / 1e6)
@@ -31,7 +23,6 @@ constexpr std::size_t kBarWidth = 24;
 
 Progress ProgressBar::progress() {
   Progress progress;
-  progress.cancelled = &g_interrupted;
   if (shown_)
     progress.report = [this](std::string_view stage, std::uint64_t done, std::uint64_t total, std::string_view unit) {
       show(stage, done, total, unit);
@@ -58,22 +49,12 @@ void ProgressBar::show(std::string_view stage, std::uint64_t done, std::uint64_t
     line += fmt::format("  {}{}/s", scaled(static_cast<double>(done) / seconds), unit);
     if (total && share > 0) line += "  " + clock_text(seconds / share - seconds) + " left";
   }
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
+  say(line);
 }
 
 void ProgressBar::clear() {
-  if (drawn_) std::fputs("\r\033[K", stderr), std::fflush(stderr);
+  if (drawn_) say("\r\033[K");
   drawn_ = false;
-}
-
-const std::atomic<bool>& interrupted() { return g_interrupted; }
-
-void install_interrupt_handler() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe and a file too large are errors of write(), told like any other
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace orbc::cli

@@ -17,7 +17,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// What the rooms report to; also carries the flag that Ctrl-C sets. The bar must outlive it.
+  /// What the rooms report to. The bar must outlive it.
   [[nodiscard]] Progress progress();
   void clear();
 
@@ -31,9 +31,5 @@ class ProgressBar {
   std::string stage_;
   Clock::time_point stage_start_{}, last_draw_{};
 };
-
-/// Set by Ctrl-C and SIGTERM once `install_interrupt_handler` was called; a second signal ends the program at once.
-[[nodiscard]] const std::atomic<bool>& interrupted();
-void install_interrupt_handler();
 
 }  // namespace orbc::cli

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compiler/cli/child.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/draw.h"
 #include "compiler/cli/effects.h"
@@ -10,6 +11,7 @@
 #include "compiler/cli/picture.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace_film.h"
@@ -85,16 +87,16 @@ int render_elsewhere(const driver::PreparedScene& scene, const RenderArguments& 
   append(diagnostics, drawn.exported.notes);
   print_result(std::move(result), diagnostics, common);
   if (!common.quiet)
-    fmt::print(stderr, "{}: {}x{}, {} samples a pixel, drawn by {} from {} copies, {} triangles, true within {:.3g} px\n",
-               shown(a.compile.output), scene.loaded().eye.width, scene.loaded().eye.height, a.samples, a.engine, r.copies, r.triangles,
-               r.error_bound_px);
+    say(fmt::format("{}: {}x{}, {} samples a pixel, drawn by {} from {} copies, {} triangles, true within {:.3g} px\n",
+                    shown(a.compile.output), scene.loaded().eye.width, scene.loaded().eye.height, a.samples, a.engine, r.copies,
+                    r.triangles, r.error_bound_px));
   return kDone;
 }
 
 int render_here(const driver::PreparedScene& scene, const RenderArguments& a, PictureFormat format, const Common& common) {
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const render::Film film =
-      driver::trace_film(scene, scene.loaded().eye, {a.samples}, driver::parallel_executor(common.threads, &interrupted()), bar.progress());
+      driver::trace_film(scene, scene.loaded().eye, {a.samples}, driver::parallel_executor(common.threads), bar.progress());
   write_output(a.compile.output, format == PictureFormat::exr
                                      ? image_io::encode_exr(render::to_float_image(film))
                                      : encoded(render::to_image(film, pass_of(a.pass), scene.scene().exposure), format));
@@ -104,8 +106,8 @@ int render_here(const driver::PreparedScene& scene, const RenderArguments& a, Pi
   if (!film.error.empty()) result["noise"] = render::rms_noise(film, scene.scene().exposure);
   print_result(std::move(result), scene.loaded().notes, common);
   if (!common.quiet)
-    fmt::print(stderr, "{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
-               noise_text(film, scene.scene().exposure));
+    say(fmt::format("{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
+                    noise_text(film, scene.scene().exposure)));
   return kDone;
 }
 
@@ -126,8 +128,9 @@ Drawn draw_elsewhere(const driver::PreparedScene& scene, const RenderArguments& 
   }
   print(drawn.exported.notes, common);
   const std::string picture = (folder.path() / "picture.png").string();
-  if (!common.quiet && stderr_is_terminal()) fmt::print(stderr, "{} draws ...\n", a.engine);
-  if (const int code = run_program(drawing_command(a, scene.loaded().eye, exported.output, picture, common), true); code != 0) {
+  if (!common.quiet && stderr_is_terminal()) say(fmt::format("{} draws ...\n", a.engine));
+  if (const int code = run_child({drawing_command(a, scene.loaded().eye, exported.output, picture, common), folder.path().string()});
+      code != 0) {
     print({make_error("cli.not-drawn", fmt::format("{} did not draw the export (exit code {})", a.engine, code),
                       code == 127 ? "its script could not be started" : "what it says of it stands above")},
           common);
@@ -148,8 +151,12 @@ int render(const RenderArguments& arguments, const Common& common) {
   a.samples = samples_of(a);
   keep_standard_output_apart(a.compile.output, common);
   if (a.engine == "povray") (void)side_of(a.samples);
+  check_outputs({a.compile.output});
+  if (!here)
+    if (const Diagnostics missing = missing_renderer(a.engine); !missing.empty()) return print(missing, common), kMachine;
   auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
+  refuse_inputs({a.compile.output}, loaded->files);
   const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;
   append(loaded->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *loaded));
   if (a.pass == "color") append(loaded->notes, driver::unlit_note(*loaded));

@@ -1,8 +1,8 @@
 #include "compiler/cli/result.h"
 
-#include <cstdio>
+#include <system_error>
 
-#include "compiler/cli/output.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 
 namespace orbc::cli {
@@ -31,17 +31,22 @@ std::string to_json(const Diagnostics& diagnostics) { return text_of(json_of(dia
 void print_result(nlohmann::ordered_json result, const Diagnostics& told, const Common& common) {
   if (!common.json) return;
   result["diagnostics"] = json_of(told);
-  write_output("-", text_of(result) + "\n");
+  write_standard_output(text_of(result) + "\n");
+}
+
+std::string failure_json(const std::string& code, const std::string& message) {
+  return text_of({{"diagnostics", json_of({make_error(code, message)})}}) + "\n";
 }
 
 void print_failure(const std::string& code, const std::string& message) {
-  const std::string text = text_of({{"diagnostics", json_of({make_error(code, message)})}}) + "\n";
-  std::fputs(text.c_str(), stdout);   // not write_output: standard output may be what has failed
+  try {
+    write_standard_output(failure_json(code, message));
+  } catch (const std::system_error&) {  // standard output may be what has failed
+  }
 }
 
 void keep_standard_output_apart(const std::string& output, const Common& common) {
-  if (output == "-" && common.json)
-    throw UsageError("only one thing can go to standard output: the output itself or the result of --json");
+  if (output == "-" && common.json) throw UsageError("only one thing can go to standard output: the output itself or the result of --json");
 }
 
 }  // namespace orbc::cli

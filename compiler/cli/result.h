@@ -12,7 +12,10 @@ namespace orbc::cli {
 /// With --json: prints a command's result, one object on standard output, with what was told on the way as its last key, `diagnostics`.
 void print_result(nlohmann::ordered_json result, const Diagnostics& told, const Common& common);
 
-/// With --json: what stopped the program, an error of the given code, as one object on standard output.
+/// What stopped a program, an error of the given code, as one JSON object.
+[[nodiscard]] std::string failure_json(const std::string& code, const std::string& message);
+
+/// With --json: the same on standard output, if that can be written.
 void print_failure(const std::string& code, const std::string& message);
 
 /// Refuses --json where the output itself goes to standard output. Throws UsageError.

@@ -4,25 +4,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "compiler/base/progress.h"
 #include "compiler/cli/accepts.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/define.h"
-#include "compiler/cli/output.h"
-#include "compiler/cli/progress_bar.h"
+#include "compiler/cli/ending.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/cli/usage.h"
 
 namespace orbc::cli {
 namespace {
-
-constexpr int kInterrupted = 130;
 
 // In the order of --help.
 void define_commands(Program& program) {
@@ -51,7 +48,7 @@ int run_command(const Command& command, const Common& common) {
   try {
     return command.run(common);
   } catch (const UsageError& error) {
-    fmt::print(stderr, "orbc {}: {}\n", command.options->get_name(), error.what());
+    say(fmt::format("orbc {}: {}\n", command.options->get_name(), error.what()));
     if (common.json) print_failure("cli.usage", error.what());
     return kUsage;
   }
@@ -73,9 +70,14 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream wanted;
+      const int code = app.exit(error, wanted, wanted);
+      write_standard_output(wanted.str());
+      return code;
+    }
     const std::string message = usage_message(program, error, {argv + 1, argv + argc});
-    fmt::print(stderr, "{}\n", message);
+    say(fmt::format("{}\n", message));
     if (asks_for_json(argc, argv)) print_failure("cli.usage", message);
     return kUsage;
   }
@@ -84,23 +86,22 @@ int dispatch(int argc, char** argv) {
       if (option->count() > 0 && !option->get_lnames().empty()) program.common.given.push_back(option->get_lnames().front());
   for (const Command& command : program.commands)
     if (app.got_subcommand(command.options)) return run_command(command, program.common);
-  write_output("-", app.help());
+  write_standard_output(app.help());
   return kDone;
 }
 
 }  // namespace
 
 int run(int argc, char** argv) {
-  install_interrupt_handler();
+  reserve_standard_streams();
+  end_on_signals(asks_for_json(argc, argv));
   const auto fail = [&](const char* code, const std::string& message, int exit_code) {
-    fmt::print(stderr, "orbc: {}\n", message);
+    say(fmt::format("orbc: {}\n", message));
     if (asks_for_json(argc, argv)) print_failure(code, message);
     return exit_code;
   };
   try {
     return dispatch(argc, argv);
-  } catch (const Cancelled&) {
-    return fail("cli.stopped", "stopped; nothing was written", kInterrupted);
   } catch (const std::bad_alloc&) {
     return fail("cli.out-of-memory", "out of memory; try fewer --max-bounces or a larger --tolerance", kMachine);
   } catch (const std::exception& error) {

@@ -5,8 +5,8 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/effects.h"
 #include "compiler/cli/expanded_star.h"
-#include "compiler/cli/output.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/notation/euler.h"
 #include "compiler/notation/parse.h"
@@ -29,14 +29,14 @@ int new_scene(const NewArguments& a, const Common& common) {
         "notation.non-orbifold-room",
         "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",
         "the scene says `allow_non_orbifold: true`; corners with integers make an orbifold", options.span));
-  if (!common.quiet) std::fputs(to_text(notes).c_str(), stderr);
+  if (!common.quiet) say(to_text(notes));
   const auto room = room::realise(parsed->orbifold, {}, true);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
   const std::string notation = notation::to_text(parsed->orbifold);
   const std::string scene =
       schema_line() +
       scene::starter_scene({notation, static_cast<int>(room->walls.size()), room->inradius, room::view_direction(*room)});
-  if (!common.json) write_output("-", scene);
+  if (!common.json) write_standard_output(scene);
   print_result({{"orbifold", notation}, {"scene", scene}}, notes, common);
   return kDone;
 }
@@ -57,11 +57,11 @@ int check(const CheckArguments& a, const Common& common) {
     all.insert(all.end(), found.begin(), found.end());
     if (!loaded) code = kSceneWrong;
     else if (!common.quiet && !common.json)
-      fmt::print(stderr, "{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
+      say(fmt::format("{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
                  notation::to_text(loaded->scene.orbifold), loaded->interior->polygon.walls.size(), loaded->scene.objects.size(),
-                 loaded->scene.lamps.size());
+                 loaded->scene.lamps.size()));
   }
-  if (common.json) write_output("-", fmt::format("{{\"ok\": {}, \"diagnostics\": {}}}\n", code == kDone, to_json(all)));
+  if (common.json) write_standard_output(fmt::format("{{\"ok\": {}, \"diagnostics\": {}}}\n", code == kDone, to_json(all)));
   return code;
 }
 

@@ -1,24 +1,14 @@
 #include "compiler/cli/support.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
-#include <thread>
 
-#include "compiler/cli/output.h"
-#include "compiler/cli/progress_bar.h"
-
-extern char** environ;
+#include "compiler/cli/streams.h"
 
 namespace orbc::cli {
 
@@ -30,8 +20,8 @@ void print(const Diagnostics& diagnostics, const Common& common) {
   };
   for (const Diagnostic& d : diagnostics)
     if (told(d)) text += to_text(d);
-  std::fputs(text.c_str(), stderr);
-  if (common.json && has_error(diagnostics)) write_output("-", "{\"diagnostics\": " + to_json(diagnostics) + "}\n");
+  say(text);
+  if (common.json && has_error(diagnostics)) write_standard_output("{\"diagnostics\": " + to_json(diagnostics) + "}\n");
 }
 
 std::string shown(const std::string& output) { return output == "-" ? "standard output" : output; }
@@ -107,38 +97,6 @@ std::string shipped_script(const std::string& name) {
     if (std::filesystem::exists(found, ignored)) return found.string();
   }
   throw std::runtime_error("cannot find " + name + ", which belongs to orbc; was it moved without its share/orbc folder?");
-}
-
-int run_program(const std::vector<std::string>& arguments, bool quiet) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  if (quiet) posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawnattr_t attributes;  // our SIGPIPE is ignored; programs we start expect the default
-  posix_spawnattr_init(&attributes);
-  sigset_t defaults;
-  sigemptyset(&defaults);
-  sigaddset(&defaults, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  if (failed) return 127;
-  int status = 0;
-  bool told = false;
-  for (;;) {
-    const pid_t done = ::waitpid(child, &status, WNOHANG);
-    if (done == child) break;
-    if (done < 0 && errno != EINTR) return 127;
-    if (interrupted() && !told) ::kill(child, SIGTERM), told = true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  if (told) throw Cancelled();
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace orbc::cli

@@ -44,7 +44,5 @@ void append_set(const std::vector<std::string>& set, scene::Overrides& overrides
 
 /// A script that ships with orbc (povray-pipe, render_blender.py): beside the sources, or in share/orbc of the installation.
 [[nodiscard]] std::string shipped_script(const std::string& name);
-/// Runs a program and waits; its output goes to ours. Returns its exit code, 127 when it cannot be started. Ctrl-C ends it too.
-int run_program(const std::vector<std::string>& arguments, bool quiet);
 
 }  // namespace orbc::cli

@@ -9,6 +9,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/expanded_star.h"
 #include "compiler/cli/output.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/image/srgb.h"
 #include "compiler/notation/euler.h"
@@ -152,12 +153,14 @@ int draw_svg(const SvgArguments& a, const Common& common) {
     print(picture.error(), common);
     return kSceneWrong;
   }
+  check_outputs({a.output});
+  refuse_inputs({a.output}, {a.motif});
   const svg::RoomDrawing drawing = svg::draw_room(*room, *picture);
   notes.insert(notes.end(), drawing.notes.begin(), drawing.notes.end());
-  if (!common.quiet) std::fputs(to_text(notes).c_str(), stderr);
+  if (!common.quiet) say(to_text(notes));
   write_output(a.output, drawing.svg);
   if (common.json)
-    write_output("-", nlohmann::ordered_json{{"output", a.output},
+    write_standard_output(nlohmann::ordered_json{{"output", a.output},
                                              {"notation", notation::to_text(room->orbifold)},
                                              {"copies", drawing.copies},
                                              {"width", drawing.width},
@@ -165,7 +168,7 @@ int draw_svg(const SvgArguments& a, const Common& common) {
                               .dump(2) +
                           "\n");
   else if (!common.quiet && a.output != "-")
-    fmt::print(stderr, "{}: {} copies of {}\n", a.output, drawing.copies, notation::to_text(room->orbifold));
+    say(fmt::format("{}: {} copies of {}\n", a.output, drawing.copies, notation::to_text(room->orbifold)));
   return kDone;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "compiler/cli/child.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/draw.h"
 #include "compiler/cli/effects.h"
@@ -13,6 +14,7 @@
 #include "compiler/cli/picture.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace_film.h"
@@ -80,13 +82,24 @@ Kept kept(const std::string& name) {
   return {name.substr(0, name.size() - ending.size()), ending, known == ".png" ? PictureFormat::png : PictureFormat::jpeg};
 }
 
-void write_pictures(const VerifyArguments& a, const image::Image& drawn, const image::Image& reference) {
-  if (!a.difference.empty())
-    write_output(a.difference, encoded(verify::difference_picture(drawn, reference), picture_format_of(a.difference, false, kEightBits)));
-  if (a.keep.empty()) return;
+// The pictures that are kept, in this order: of the differences, of the export, of the tracer. Empty: not wanted.
+std::vector<std::string> outputs_of(const VerifyArguments& a) {
+  if (a.keep.empty()) return {a.difference, "", ""};
   const Kept names = kept(a.keep);
-  write_output(names.stem + "-export" + names.ending, encoded(drawn, names.format));
-  write_output(names.stem + "-tracer" + names.ending, encoded(reference, names.format));
+  return {a.difference, names.stem + "-export" + names.ending, names.stem + "-tracer" + names.ending};
+}
+
+void write_pictures(const VerifyArguments& a, const image::Image& drawn, const image::Image& reference) {
+  const std::vector<std::string> outputs = outputs_of(a);
+  std::vector<std::string> bytes;
+  const PictureFormat difference = a.difference.empty() ? PictureFormat::png : picture_format_of(a.difference, false, kEightBits);
+  if (!a.difference.empty()) bytes.push_back(encoded(verify::difference_picture(drawn, reference), difference));
+  else bytes.emplace_back();
+  for (const image::Image* picture : {&drawn, &reference}) bytes.push_back(a.keep.empty() ? "" : encoded(*picture, kept(a.keep).format));
+  std::vector<OutputFile> files;
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (!outputs[i].empty()) files.push_back({outputs[i], bytes[i]});
+  if (!files.empty()) write_together(files);
 }
 
 void refuse_what_cannot_be(const VerifyArguments& a) {
@@ -98,8 +111,14 @@ void refuse_what_cannot_be(const VerifyArguments& a) {
 
 int verify(const VerifyArguments& a, const Common& common) {
   refuse_what_cannot_be(a);
+  const std::vector<std::string> outputs = outputs_of(a);
+  check_outputs(outputs);
+  Diagnostics missing = missing_renderer("povray");
+  if (a.blender) append(missing, missing_renderer("blender"));
+  if (!missing.empty()) return print(missing, common), kMachine;
   auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
+  refuse_inputs(outputs, loaded->files);
   const unsigned targets = kTraced | kPov | (a.blender ? unsigned{kGltf} : 0);
   append(loaded->notes, without_effect(common.given, {targets, false, false, false, a.samples}, *loaded));
   append(loaded->notes, leave_out_lens(*loaded));
@@ -109,8 +128,8 @@ int verify(const VerifyArguments& a, const Common& common) {
   const scene::BakeQuality path_quality = loaded->scene.bake.quality;
   if (a.compile.scene.quality.empty()) loaded->scene.bake.quality = scene::BakeQuality::fine;
   const driver::PreparedScene scene(*loaded, prepare_options(a.compile));
-  const render::Film film = driver::trace_film(scene, loaded->eye, {a.samples, path_quality},
-                                               driver::parallel_executor(common.threads, &interrupted()), bar.progress());
+  const render::Film film =
+      driver::trace_film(scene, loaded->eye, {a.samples, path_quality}, driver::parallel_executor(common.threads), bar.progress());
   bar.clear();
   const image::Image reference = render::to_image(film, loaded->scene.exposure);
   std::vector<Verdict> verdicts;
@@ -136,7 +155,7 @@ int verify(const VerifyArguments& a, const Common& common) {
   }
   write_pictures(a, drawn, reference);
   const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
-  if (!common.json) write_output("-", table(verdicts));
+  if (!common.json) write_standard_output(table(verdicts));
   print_result({{"agrees", all},
                 {"width", reference.width},
                 {"height", reference.height},
@@ -147,9 +166,9 @@ int verify(const VerifyArguments& a, const Common& common) {
                 {"pictures", json(verdicts)}},
                told, common);
   if (!all && !loaded->scene.lamps.empty() && !common.quiet)
-    fmt::print(stderr,
-               "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.99 "
-               "compares them fairly\n");
+    say(fmt::format(
+        "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.99 "
+        "compares them fairly\n"));
   return all ? kDone : kSceneWrong;
 }
 

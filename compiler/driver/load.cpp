@@ -1,7 +1,11 @@
 #include "compiler/driver/load.h"
 
-#include <iostream>
-#include <iterator>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include "compiler/light/lighting.h"
@@ -20,7 +24,16 @@ Result<scene::ReadResult> read(const std::string& path, const scene::Overrides& 
   if (path != "-") return scene::load_scene(path, overrides);
   auto source = std::make_shared<SourceText>();
   source->name = "<stdin>";
-  for (std::istreambuf_iterator<char> at(std::cin), end; at != end && source->text.size() < kMaxInputBytes; ++at) source->text += *at;
+  std::array<char, 1 << 16> buffer{};
+  while (source->text.size() < kMaxInputBytes) {
+    const ssize_t got = ::read(STDIN_FILENO, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0)
+      return make_error("scene.cannot-read", fmt::format("cannot read the scene from standard input: {}", std::strerror(errno)),
+                        "pipe a scene in, or give the path of a scene file");
+    if (got == 0) break;
+    source->text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
   return scene::read_scene(std::shared_ptr<const SourceText>(source), ".", overrides);
 }
 
@@ -37,7 +50,10 @@ Result<LoadedScene> load(const std::string& path, const scene::Overrides& overri
   const scene::Scene& scene = loaded.scene;
   const auto room = room::realise(scene.orbifold, scene.room.shape, scene.allow_non_orbifold);
   if (!room) return located(room.error(), scene.room.shape.span.source ? scene.room.shape.span : scene.span);
-  auto furnished = place::furnish(scene, *room, mesh_io::assets_from_files());
+  loaded.files.push_back(path);
+  mesh_io::LoadOptions options;
+  options.on_read = [&files = loaded.files](const std::string& file) { files.push_back(file); };
+  auto furnished = place::furnish(scene, *room, mesh_io::assets_from_files(options));
   if (!furnished) return located(furnished.error(), scene.span);
   append(loaded.notes, located(furnished->warnings, scene.span));
   auto lamps = light::prepare_lamps(scene, furnished->interior, light::light_options(scene));

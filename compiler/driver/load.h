@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "compiler/base/result.h"
 #include "compiler/light/lighting.h"
@@ -18,6 +19,7 @@ struct LoadedScene {
   std::shared_ptr<const light::LampSet> lamps;      ///< placed in the interior, with their mirror images; never null
   place::Camera eye;                                ///< the scene's camera
   Diagnostics notes;
+  std::vector<std::string> files = {};              ///< all that were read: the scene ("-" is standard input), meshes, what they refer to
 };
 
 /// read → realise → furnish → place lamps → eye.

@@ -41,12 +41,15 @@ def moved(path, old, new, count=1):
     text = path.read_text()
     check(old in text, f'{path.name} has {old}')
     other = path.with_name('moved' + path.suffix)
-    other.write_text(text.replace(old, new, count).replace(path.stem + '-', 'moved-').replace(path.stem + '.bin', 'moved.bin'))
+    other.write_text(text.replace(old, new, count).replace(path.stem + '-', 'moved-'))
     for beside in path.parent.glob(path.stem + '-*'):
         shutil.copy(beside, path.with_name(beside.name.replace(path.stem, 'moved', 1)))
-    if path.with_suffix('.bin').exists():
-        shutil.copy(path.with_suffix('.bin'), other.with_suffix('.bin'))
     return other
+
+
+def beside(path, kind):
+    """The file beside an export that it names."""
+    return path.with_name(re.search(rf'"({path.stem}{kind}-[0-9a-f]{{12}}\.\w+)"', path.read_text()).group(1))
 
 
 def compares_every_form(where):
@@ -70,20 +73,22 @@ def compares_every_form(where):
     code, told = diff(pov, moved(pov, 'mesh2', 'mesh3'))
     check(code == 1 and 'mesh2 against mesh3' in told, 'structure differs: which token')
 
-    pixels = Image.open(where / 'other-atlas.png').convert('RGB')
+    atlas = beside(where / 'other.pov', '-atlas')
+    pixels = Image.open(atlas).convert('RGB')
     shifted = pixels.copy()
     shifted.putpixel((3, 2), tuple(min(255, c + 2) if c < 254 else c - 2 for c in pixels.getpixel((3, 2))))
-    shifted.save(where / 'other-atlas.png')
+    shifted.save(atlas)
     code, told = diff(pov, where / 'other.pov', '--pixels', '1')
     check(code == 1 and 'pixel (3, 2)' in told and '2/255' in told, 'a pixel of the atlas is two steps off: which')
     check(diff(pov, where / 'other.pov', '--pixels', '2')[0] == 0, '--pixels 2 lets it pass')
-    pixels.save(where / 'other-atlas.png')
+    pixels.save(atlas)
     check(diff(pov, where / 'other.pov')[0] == 0, 'compressed otherwise, the same pixels agree')
 
     gltf = where / 'one.gltf'
-    data = bytearray((where / 'other.bin').read_bytes())
+    buffer = beside(where / 'other.gltf', '')
+    data = bytearray(buffer.read_bytes())
     data[-4] ^= 1
-    (where / 'other.bin').write_bytes(data)
+    buffer.write_bytes(data)
     code, told = diff(gltf, where / 'other.gltf')
     check(code == 1 and 'accessor' in told, 'a bit of the .bin differs: which accessor')
     tree = json.loads(gltf.read_text())
@@ -116,9 +121,10 @@ def refuses(where):
         (where / name).write_bytes(data)
         code, told = diff(glb, where / name)
         check(code == 3 and 'diff.bad-file' in told, f'{name} is refused with the reason')
-    os.remove(where / 'moved-atlas.png')
+    missing = beside(where / 'moved.pov', '-atlas')
+    os.remove(missing)
     code, told = diff(where / 'moved.pov', pov)
-    check(code == 3 and 'moved-atlas.png' in told, 'a picture that is missing is named')
+    check(code == 3 and missing.name in told, 'a picture that is missing is named')
     deep = where / 'deep.json'
     deep.write_text('[' * 1000000)
     check(diff(deep, deep)[0] == 3, 'a million brackets are refused')
