@@ -33,6 +33,7 @@ def prepare(where):
     (where / 'ball.obj').write_text(BALL)
     (where / 'a.yaml').write_text(SCENE % 'slategray')
     (where / 'b.yaml').write_text(SCENE % 'brown')
+    (where / 'left.pov').write_bytes(b''.join(b'<%d.5, 2>\n' % i for i in range(100000)))
 
 
 # name: words of the command, and the output that it writes, or None for one that prints.
@@ -189,7 +190,6 @@ def ended_at_all_moments(where, name, use):
 
 def signals(where):
     uses = commands(where)
-    (where / 'left.pov').write_bytes(b''.join(b'<%d.5, 2>\n' % i for i in range(100000)))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         longest_first = sorted(uses.items(), key=lambda item: not item[0].startswith(('render blender', 'verify')))
         for name, seconds, stopped, wrong in pool.map(lambda item: ended_at_all_moments(where, *item), longest_first):
