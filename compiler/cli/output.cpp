@@ -44,7 +44,8 @@ Place place_of(const std::string& name) {
     if (S_ISLNK(found.st_mode)) {
       if (links == kLinks) errno = ELOOP, fail("cannot write " + name);
       const fs::path target = fs::read_symlink(place.path);
-      if (target.string().rfind("/proc/", 0) == 0) place.stream = true;  // /dev/stdout and its like are open already
+      const bool open_already = place.path.string().rfind("/proc/", 0) == 0 || target.string().rfind("/proc/", 0) == 0;
+      if (open_already) place.stream = true;  // /dev/stdout and its like
       else place.path = target.is_absolute() ? target : place.path.parent_path() / target;
       continue;
     }
