@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 
-from helpers import BIN, check, failures, finish, folder, need, run
+from helpers import BIN, check, finish, folder, need, run
 
 ORBC = BIN / 'orbc'
 MOMENTS = 20
@@ -180,7 +180,7 @@ def ended_at_all_moments(where, name, use):
                 wrong.append(f'{signal_name} after {delay:.3f} s: {why}')
                 fill(place.temporary, {})
     if name.startswith('render'):  # Ctrl-C twice, to the whole group, as a terminal does it
-        for moment in range(0, MOMENTS, 2):
+        for moment in range(0, MOMENTS, 4):
             fill(place.out, sets[1])
             ended = end(place, full_command(use, place.out), signal.SIGINT, seconds * (moment + 0.5) / MOMENTS, twice=True)
             if why := wrong_after(place, sets, ended, signal.SIGINT, use):
@@ -196,32 +196,48 @@ def signals(where):
             check(not wrong and stopped > 0, f'{name} ({seconds:.2f} s), {stopped} of {4 * MOMENTS} runs ended early: {wrong[:3] if wrong else "all is old or all is new"}')
 
 
-def streams(where):
-    """Closed and full streams. Messages that are lost change nothing; output that is lost is an error."""
+def with_streams(env, redirection, command):
+    return run(['bash', '-c', f'exec "$@" {redirection}', 'bash', *command], env=env)
+
+
+def lost_streams(where, name, use):
+    """What is wrong with a command whose messages are lost, or whose output is."""
     place = Place(where)
     env = place.environment()
+    command = full_command(([word for word in use[0] if word != '-q'], use[1]), place.out)
+    whole = run(command, env=env)
+    made = contents(place.out)
+    wrong = [] if whole.returncode == 0 else [f'it fails: {whole.stderr.decode()[-200:]}']
+    for redirection in ('2>/dev/full', '2>&-', '<&- 2>&-'):
+        fill(place.out, {})
+        done = with_streams(env, redirection, command)
+        if done.returncode or done.stdout != whole.stdout:
+            wrong.append(f'{redirection}: exit code {done.returncode}')
+        if contents(place.out) != made:
+            wrong.append(f'{redirection}: its files are others')
+    for redirection in ('>/dev/full', '>&-', '<&- >&- 2>&-', '>/dev/full 2>/dev/full'):
+        fill(place.out, {})
+        done = with_streams(env, redirection, command)
+        told = b'cannot write standard output' in done.stderr or '2>' in redirection
+        if done.returncode != (3 if whole.stdout else 0) or (whole.stdout and not told):
+            wrong.append(f'{redirection}: exit code {done.returncode} {done.stderr.decode()[-100:]}')
+        if contents(place.out) != made:
+            wrong.append(f'{redirection}: its files are others')
+    if os.listdir(place.temporary):
+        wrong.append('temporary files stay')
+    return name, wrong
+
+
+def streams(where):
+    """Closed and full streams. Messages that are lost change nothing; output that is lost is an error."""
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        for name, wrong in pool.map(lambda item: lost_streams(where, *item), commands(where).items()):
+            check(not wrong, f'{name} with closed and full streams: {wrong or "does what it does else, or tells that it cannot"}')
+    env = dict(os.environ)
 
     def shell(redirection, command):
-        return run(['bash', '-c', f'exec "$@" {redirection}', 'bash', *command], env=env)
+        return with_streams(env, redirection, command)
 
-    for name, use in commands(where).items():
-        loud = ([word for word in use[0] if word != '-q'], use[1])
-        command = full_command(loud, place.out)
-        fill(place.out, {})
-        whole = run(command, env=env)
-        made = contents(place.out)
-        for redirection in ('2>/dev/full', '2>&-', '<&- 2>&-'):
-            fill(place.out, {})
-            done = shell(redirection, command)
-            check(done.returncode == whole.returncode == 0 and contents(place.out) == made and done.stdout == whole.stdout,
-                  f'{name} {redirection} does what it does else: exit code {done.returncode}')
-        for redirection in ('>/dev/full', '>&-', '<&- >&- 2>&-', '>/dev/full 2>/dev/full'):
-            fill(place.out, {})
-            done = shell(redirection, command)
-            silent = not whole.stdout
-            told = b'cannot write standard output' in done.stderr or '2>' in redirection
-            check(done.returncode == 0 if silent else done.returncode == 3 and told, f'{name} {redirection}: exit code {done.returncode} {done.stderr.decode()[-100:]}')
-            check(contents(place.out) == made, f'and what it writes to files is whole')
     for words in (['--help'], ['--version'], ['compile', '--help'], ['info', '*237', '--json'], []):
         for redirection in ('>/dev/full', '>&-'):
             done = shell(redirection, [ORBC, *words])
@@ -234,7 +250,6 @@ def streams(where):
     check(done.returncode == 1 and b'scene.cannot-read' in done.stderr, f'a closed standard input cannot be read: {done.stderr.decode()[:150]}')
     done = shell('< .', [ORBC, 'check', '-'])
     check(done.returncode == 1 and b'scene.cannot-read' in done.stderr and b'directory' in done.stderr, f'neither can a folder: {done.stderr.decode()[:150]}')
-    check(os.listdir(place.temporary) == [], 'no temporary file is left')
 
 
 def full_disks(where, at, limit):
@@ -321,5 +336,5 @@ with folder() as name:
     for part in [parts[name] for name in sys.argv[2:]] or parts.values():
         begin = time.monotonic()
         part(base)
-        print(f'{part.__name__}: {time.monotonic() - begin:.0f} s')
+        print(f'{part.__name__}: {time.monotonic() - begin:.0f} s', flush=True)
 finish()
