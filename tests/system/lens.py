@@ -19,8 +19,7 @@ camera: {at: {xy: [-1.7, 0], z: 0.5}, look_at: {xy: [1, 0], z: 0.4}, fov: 20deg,
 """
 # scripts/render_blender.py, with a lens in its camera: aperture_fstop is the focal length over the diameter, the length in mm.
 DRAW = f"""
-import sys
-names = {{'__name__': 'render_blender', '__file__': 'render_blender.py'}}
+names = {{'__name__': 'render_blender', '__file__': {str(SCRIPTS / 'render_blender.py')!r}}}
 exec(compile(open({str(SCRIPTS / 'render_blender.py')!r}).read(), 'render_blender', 'exec'), names)
 plain = names['set_render']
 def set_render(scene, options, size):
@@ -29,7 +28,7 @@ def set_render(scene, options, size):
     camera.dof.use_dof, camera.dof.focus_distance = True, {FOCUS}
     camera.dof.aperture_blades, camera.dof.aperture_fstop = 0, camera.lens * 1e-3 / (2 * {RADIUS})
 names['set_render'] = set_render
-names['draw'](sys.argv[sys.argv.index('--') + 1:])
+names['draw']()
 """
 
 with folder() as where:
