@@ -208,7 +208,7 @@ void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<st
   }
 }
 
-void write_together(const std::vector<OutputFile>& files) {
+void write_together(const std::vector<OutputFile>& files, const std::function<void()>& then) {
   std::vector<std::unique_ptr<PendingFile>> pending;
   std::vector<const OutputFile*> streams;
   for (const OutputFile& file : files) {
@@ -224,6 +224,7 @@ void write_together(const std::vector<OutputFile>& files) {
   const HoldSignals hold;
   for (const auto& file : pending) file->take_temporary_name();
   for (const auto& file : pending) file->take_name();
+  if (then) then();
   output_is_written();
 }
 

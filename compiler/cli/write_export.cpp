@@ -54,8 +54,9 @@ std::uint64_t write_export(const std::vector<driver::File>& files, const ExportT
     if (file.name.empty()) set.push_back({target.output, file.bytes}), bytes = file.bytes.size();
   std::optional<FolderLock> lock;
   if (target.format->has_side_files && !is_stream(target.output)) lock.emplace(folder);
-  write_together(set);
-  if (lock && lock->held()) remove_old_side_files(files, target, inputs);
+  write_together(set, [&] {
+    if (lock && lock->held()) remove_old_side_files(files, target, inputs);
+  });
   return bytes;
 }
 

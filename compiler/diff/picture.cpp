@@ -60,7 +60,9 @@ void compare_channels(const image::FloatImage& a, const image::FloatImage& b, co
   const auto width = static_cast<std::size_t>(a.width), count = width * static_cast<std::size_t>(a.height);
   std::vector<double> steps(count, 0.0);
   std::vector<std::string> colors;
-  for (const auto& [name, values] : a.channels) {
+  for (const auto& channel : a.channels) {
+    const std::string& name = channel.first;
+    const std::vector<float>& values = channel.second;
     const std::vector<float>& others = b.channels.at(name);
     const std::string last = name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1);
     const bool is_color = name == last && (name == "R" || name == "G" || name == "B" || name == "A");

@@ -262,7 +262,7 @@ def full_disks(where, at, limit):
         sizes = [sum(-(-len(data) // 4096) * 4096 for data in files.values()) for files in (new, old)]
         written = set()
         for part in range(7):
-            before = limit(sizes[1] + 4096 * 2 + (sizes[0] + 8192) * part // 6, max(map(len, new.values())) * part // 6)
+            before = limit(sizes[1] + (sizes[0] + 16384) * part // 6, max(map(len, new.values())) * part // 6)
             fill(at, old)
             done = run([*before, ORBC, *words, '-o', at / f'out.{form}', *report])
             found = contents(at)

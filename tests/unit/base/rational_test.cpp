@@ -45,7 +45,7 @@ TEST_CASE("fractions are in lowest terms and calculate as Boost's do", "[base]")
   const std::vector<std::string> list = numbers();
   for (std::size_t i = 0; i + 3 < list.size(); ++i) {
     if (list[i + 1] == "0" || list[i + 3] == "0") continue;
-    const Rational a(Integer(list[i]), Integer(list[i + 1])), b(Integer(list[i + 2]), Integer(list[i + 3]));
+    const Rational a{Integer(list[i]), Integer(list[i + 1])}, b{Integer(list[i + 2]), Integer(list[i + 3])};
     const Fraction p = Fraction(Number(list[i])) / Number(list[i + 1]), q = Fraction(Number(list[i + 2])) / Number(list[i + 3]);
     CHECK(to_string(a) == p.str());
     CHECK(to_string(a + b) == Fraction(p + q).str());
