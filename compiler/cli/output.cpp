@@ -82,11 +82,7 @@ class PendingFile {
   }
 
   void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1 << 24));
-      if (written < 0 && errno != EINTR) fail("cannot write " + name_);
-      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
+    if (!write_all(descriptor_, bytes)) fail("cannot write " + name_);
     if (::fchmod(descriptor_, mode_of(place_)) != 0) fail("cannot write " + name_);
     // Where the owner may be kept he is; nobody but root may give files away.
     if (place_.old) [[maybe_unused]]
@@ -138,15 +134,10 @@ void write_stream(const OutputFile& file) {
   if (file.name == "-") return write_standard_output(file.bytes);
   const int descriptor = ::open(file.name.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);  // /dev/stdout may be a file that others begin
   if (descriptor < 0) fail("cannot write " + file.name);
-  std::string_view bytes = file.bytes;
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), std::min<std::size_t>(bytes.size(), 1 << 24));
-    if (written < 0 && errno != EINTR) {
-      const int error = errno;
-      ::close(descriptor);
-      errno = error, fail("cannot write " + file.name);
-    }
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  if (!write_all(descriptor, file.bytes)) {
+    const int error = errno;
+    ::close(descriptor);
+    errno = error, fail("cannot write " + file.name);
   }
   if (::close(descriptor) != 0) fail("cannot write " + file.name);
 }
@@ -208,7 +199,7 @@ void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<st
   }
 }
 
-void write_together(const std::vector<OutputFile>& files, const std::function<void()>& then) {
+void write_together(const std::vector<OutputFile>& files, const std::function<void()>& when_named) {
   std::vector<std::unique_ptr<PendingFile>> pending;
   std::vector<const OutputFile*> streams;
   for (const OutputFile& file : files) {
@@ -224,7 +215,7 @@ void write_together(const std::vector<OutputFile>& files, const std::function<vo
   const HoldSignals hold;
   for (const auto& file : pending) file->take_temporary_name();
   for (const auto& file : pending) file->take_name();
-  if (then) then();
+  if (when_named) when_named();
   output_is_written();
 }
 

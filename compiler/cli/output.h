@@ -27,9 +27,9 @@ struct OutputFile {
 
 /// Writes files that belong together, all or none: first the bytes of all of them, under no name or a temporary one, then each takes its
 /// name, in the order given. A symbolic link stays and what it points to is replaced; the new file gets the mode of the old one.
-/// In: what belongs to it, such as removing what the files replace; no signal ends the program between the two.
-/// Throws std::system_error when the machine refuses; nothing is left behind.
-void write_together(const std::vector<OutputFile>& files, const std::function<void()>& then = {});
+/// In:     `when_named` is called when the files have their names, and before a signal can end the program: it removes what they replace.
+/// Throws: std::system_error when the machine refuses; nothing is left behind.
+void write_together(const std::vector<OutputFile>& files, const std::function<void()>& when_named = {});
 
 /// Writes one file, as write_together does.
 void write_output(const std::string& name, std::string_view bytes);

@@ -21,7 +21,16 @@ bool try_again(int descriptor) {
   return ::poll(&waiting, 1, -1) >= 0 || errno == EINTR;
 }
 
-// Makes: whether all of it was written; errno says why not.
+}  // namespace
+
+void reserve_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // open() gives the lowest free number, which is this one: those below are taken. Opened the wrong way round, it fails when it is used.
+    if (::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;  // there is nothing better to do without /dev
+  }
+}
+
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), std::min<std::size_t>(bytes.size(), 1 << 24));
@@ -34,17 +43,7 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-}  // namespace
-
-void reserve_standard_streams() {
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // open() gives the lowest free number, which is this one: those below are taken. Opened the wrong way round, it fails when it is used.
-    if (::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;  // there is nothing better to do without /dev
-  }
-}
-
-void say(std::string_view text) { (void)write_all(STDERR_FILENO, text); }
+void print_message(std::string_view text) { (void)write_all(STDERR_FILENO, text); }
 
 void write_standard_output(std::string_view bytes) {
   if (!write_all(STDOUT_FILENO, bytes)) throw std::system_error(errno, std::generic_category(), "cannot write standard output");

@@ -82,24 +82,31 @@ Kept kept(const std::string& name) {
   return {name.substr(0, name.size() - ending.size()), ending, known == ".png" ? PictureFormat::png : PictureFormat::jpeg};
 }
 
-// The pictures that are kept, in this order: of the differences, of the export, of the tracer. Empty: not wanted.
-std::vector<std::string> outputs_of(const VerifyArguments& a) {
+/// The names of the pictures that are kept; empty: not wanted.
+struct KeptNames {
+  std::string difference, drawn, traced;
+  [[nodiscard]] std::vector<std::string> all() const { return {difference, drawn, traced}; }
+};
+
+KeptNames kept_names(const VerifyArguments& a) {
   if (a.keep.empty()) return {a.difference, "", ""};
   const Kept names = kept(a.keep);
   return {a.difference, names.stem + "-export" + names.ending, names.stem + "-tracer" + names.ending};
 }
 
 void write_pictures(const VerifyArguments& a, const image::Image& drawn, const image::Image& reference) {
-  const std::vector<std::string> outputs = outputs_of(a);
-  std::vector<std::string> bytes;
-  const PictureFormat difference = a.difference.empty() ? PictureFormat::png : picture_format_of(a.difference, false, kEightBits);
-  if (!a.difference.empty()) bytes.push_back(encoded(verify::difference_picture(drawn, reference), difference));
-  else bytes.emplace_back();
-  for (const image::Image* picture : {&drawn, &reference}) bytes.push_back(a.keep.empty() ? "" : encoded(*picture, kept(a.keep).format));
-  std::vector<OutputFile> files;
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (!outputs[i].empty()) files.push_back({outputs[i], bytes[i]});
-  if (!files.empty()) write_together(files);
+  const KeptNames names = kept_names(a);
+  std::vector<std::pair<std::string, std::string>> files;  // name, bytes
+  if (!a.difference.empty())
+    files.emplace_back(names.difference,
+                       encoded(verify::difference_picture(drawn, reference), picture_format_of(a.difference, false, kEightBits)));
+  if (!a.keep.empty()) {
+    files.emplace_back(names.drawn, encoded(drawn, kept(a.keep).format));
+    files.emplace_back(names.traced, encoded(reference, kept(a.keep).format));
+  }
+  std::vector<OutputFile> outputs;
+  for (const auto& [name, bytes] : files) outputs.push_back({name, bytes});
+  if (!outputs.empty()) write_together(outputs);
 }
 
 void refuse_what_cannot_be(const VerifyArguments& a) {
@@ -107,11 +114,36 @@ void refuse_what_cannot_be(const VerifyArguments& a) {
   if (!a.difference.empty()) (void)picture_format_of(a.difference, false, kEightBits);
 }
 
+/// What a renderer has drawn of the export, compared with the tracer's picture.
+struct Compared {
+  int code = kDone;  ///< exit code; all else is there when it is kDone
+  image::Image drawn;
+  Verdict verdict;
+  Diagnostics notes;
+};
+
+Compared compare_with(const std::string& engine, const driver::PreparedScene& scene, const image::Image& reference,
+                      const VerifyArguments& a, const Common& common) {
+  RenderArguments arguments;
+  arguments.compile = a.compile;
+  arguments.engine = engine;
+  arguments.samples = a.samples;
+  Common silent = common;
+  silent.quiet = true;
+  Drawn by_engine = draw_elsewhere(scene, arguments, silent);
+  if (by_engine.code != kDone) return {by_engine.code, {}, {}, {}};
+  if (by_engine.picture.width != reference.width || by_engine.picture.height != reference.height)
+    throw std::runtime_error("the renderer's picture has another size");
+  Verdict verdict{engine, verify::compare(by_engine.picture, reference), false};
+  verdict.passed = passes(verdict.comparison, a);
+  return {kDone, std::move(by_engine.picture), verdict, by_engine.exported.notes};
+}
+
 }  // namespace
 
 int verify(const VerifyArguments& a, const Common& common) {
   refuse_what_cannot_be(a);
-  const std::vector<std::string> outputs = outputs_of(a);
+  const std::vector<std::string> outputs = kept_names(a).all();
   check_outputs(outputs);
   Diagnostics missing = missing_renderer("povray");
   if (a.blender) append(missing, missing_renderer("blender"));
@@ -134,24 +166,14 @@ int verify(const VerifyArguments& a, const Common& common) {
   const image::Image reference = render::to_image(film, loaded->scene.exposure);
   std::vector<Verdict> verdicts;
   image::Image drawn;
-  Diagnostics told = loaded->notes;
-  Common silent = common;
-  silent.quiet = true;
+  Diagnostics notes = loaded->notes;
   for (const char* engine : {"blender", "povray"}) {  // the difference picture shows POV-Ray's, which is always drawn
     if (engine == std::string("blender") && !a.blender) continue;
-    RenderArguments render_arguments;
-    render_arguments.compile = a.compile;
-    render_arguments.engine = engine;
-    render_arguments.samples = a.samples;
-    Drawn by_engine = draw_elsewhere(scene, render_arguments, silent);
-    if (by_engine.code != kDone) return by_engine.code;
-    append(told, by_engine.exported.notes);
-    drawn = std::move(by_engine.picture);
-    if (drawn.width != reference.width || drawn.height != reference.height)
-      throw std::runtime_error("the renderer's picture has another size");
-    Verdict verdict{engine, verify::compare(drawn, reference), false};
-    verdict.passed = passes(verdict.comparison, a);
-    verdicts.push_back(verdict);
+    Compared compared = compare_with(engine, scene, reference, a, common);
+    if (compared.code != kDone) return compared.code;
+    append(notes, compared.notes);
+    drawn = std::move(compared.drawn);
+    verdicts.push_back(std::move(compared.verdict));
   }
   write_pictures(a, drawn, reference);
   const bool all = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
@@ -164,11 +186,11 @@ int verify(const VerifyArguments& a, const Common& common) {
                 {"threshold", a.threshold},
                 {"off_edge", a.off_edge},
                 {"pictures", json(verdicts)}},
-               told, common);
+               notes, common);
   if (!all && !loaded->scene.lamps.empty() && !common.quiet)
-    say(fmt::format(
+    print_message(
         "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.99 "
-        "compares them fairly\n"));
+        "compares them fairly\n");
   return all ? kDone : kSceneWrong;
 }
 
