@@ -25,7 +25,7 @@ class Stopped(BaseException):
         self.code = 130 if number == signal.SIGINT else 3
 
 
-def say(text):
+def print_message(text):
     """To standard error. Where that is closed or full the text is lost: messages never change what a program does."""
     data = text.encode('utf-8', 'surrogateescape')
     with contextlib.suppress(OSError):
@@ -187,13 +187,13 @@ def main_program(name, main):
     except SystemExit as stop:  # --help, argparse
         code = stop.code if isinstance(stop.code, int) else 2
     except Failure as failure:
-        say(f'{name}: {failure}\n')
+        print_message(f'{name}: {failure}\n')
         code = failure.code
     except (OSError, MemoryError) as error:
-        say(f'{name}: {error}\n')
+        print_message(f'{name}: {error}\n')
         code = 3
     except Stopped as stopped:
-        say(f'{name}: stopped\n')
+        print_message(f'{name}: stopped\n')
         code = stopped.code
     if inside:
         if code:
@@ -203,6 +203,6 @@ def main_program(name, main):
         if sys.stdout is not None:
             sys.stdout.flush()
     except OSError as error:
-        say(f'{name}: cannot write standard output: {error.strerror}\n')
+        print_message(f'{name}: cannot write standard output: {error.strerror}\n')
         code = code or 3
     os._exit(code)   # what could not be written is not tried once more

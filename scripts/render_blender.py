@@ -21,7 +21,7 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from drawing import Failure, check_output, check_scene, deliver, main_program, private_folder, run, say, strip_dates, take_scene
+from drawing import Failure, check_output, check_scene, deliver, main_program, private_folder, run, print_message, strip_dates, take_scene
 
 try:
     import bpy
@@ -125,10 +125,10 @@ def draw_outside(options, folder, name):
         os.close(descriptor)
     said = said.replace(f'{inside}/{name}', 'the scene on standard input' if options.scene == '-' else options.scene)
     if options.verbose:
-        say(said)
+        print_message(said)
     elif code:
         lines = said.splitlines()
-        say('\n'.join([line for line in lines if line.startswith('render_blender:')] or lines[-40:]) + '\n')
+        print_message('\n'.join([line for line in lines if line.startswith('render_blender:')] or lines[-40:]) + '\n')
     if code < 0:
         raise Failure(3, f'Blender was ended by signal {-code}')
     if code:

@@ -3,13 +3,15 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 namespace orbc {
 
 /// Prints the failed comparison and its place, then aborts. For errors of orbc itself, never for errors of the user.
 template <class A, class B>
 [[noreturn]] void check_failed(const char* expression, const A& left, const B& right, const char* file, int line) {
-  fmt::print(stderr, "orbc: internal error at {}:{}: {} (left {}, right {})\n", file, line, expression, left, right);
+  const std::string text = fmt::format("orbc: internal error at {}:{}: {} (left {}, right {})\n", file, line, expression, left, right);
+  std::fputs(text.c_str(), stderr);  // fmt::print would throw where standard error is closed
   std::abort();
 }
 

@@ -45,7 +45,7 @@ int write_tiling(const driver::LoadedScene& loaded, const CompileArguments& a, c
   const std::uint64_t bytes = write_export(files, {a.output, exporters::find_export_format("svg"), {}, {}}, loaded.files);
   print_result({{"output", a.output}, {"format", "svg"}, {"bytes", bytes}, {"orbifold", tiling->title}, {"copies", tiling->copies.size()}},
                loaded.notes, common);
-  if (!common.quiet) say(fmt::format("{}: {} copies of {}\n", shown(a.output), tiling->copies.size(), tiling->title));
+  if (!common.quiet) print_message(fmt::format("{}: {} copies of {}\n", shown(a.output), tiling->copies.size(), tiling->title));
   return kDone;
 }
 
@@ -196,7 +196,8 @@ int compile(const CompileArguments& a, const Common& common) {
   }
   const driver::Report& r = made->report;
   if (!common.quiet)
-    say(fmt::format("{}: {} copies, {} triangles, true within {:.3g} px\n", shown(a.output), r.copies, r.triangles, r.error_bound_px));
+    print_message(
+        fmt::format("{}: {} copies, {} triangles, true within {:.3g} px\n", shown(a.output), r.copies, r.triangles, r.error_bound_px));
   return kDone;
 }
 

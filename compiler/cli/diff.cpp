@@ -12,7 +12,7 @@ namespace orbc::cli {
 namespace {
 
 std::string json(const diff::Finding& f, const DiffArguments& a) {
-  nlohmann::ordered_json told = {{"agree", !f.differs},
+  nlohmann::ordered_json result = {{"agree", !f.differs},
                                  {"within", a.within},
                                  {"pixel_steps", a.pixels},
                                  {"same_structure", f.same_structure},
@@ -27,9 +27,9 @@ std::string json(const diff::Finding& f, const DiffArguments& a) {
                                  {"pixels_beyond", f.pixels_beyond},
                                  {"largest_step", f.largest_step},
                                  {"largest_step_at", f.largest_step_at}};
-  if (f.differs) told["first"] = {{"at", f.first.at}, {"at_in_other", f.first.at_in_other}, {"what", f.first.what}};
+  if (f.differs) result["first"] = {{"at", f.first.at}, {"at_in_other", f.first.at_in_other}, {"what", f.first.what}};
   // JSON has no infinity; names of files may be in any encoding.
-  return told.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return result.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string summary(const diff::Finding& f, const DiffArguments& a) {
@@ -61,14 +61,14 @@ int diff(const DiffArguments& a, const Common& common) {
       throw UsageError(
           fmt::format("cannot tell what \"{}\" is: the ending must be .pov, .svg, .json, .gltf, .glb, .png, .jpg or .exr", *name));
   if (*left_form != *right_form) throw UsageError(fmt::format("{} and {} are files of different kinds", a.left, a.right));
-  Common told = common;
-  told.json = false;  // unreadable files are the machine's fault, not a result
+  Common plain = common;
+  plain.json = false;  // unreadable files are the machine's fault, not a result
   const auto left = diff::read_source(a.left), right = diff::read_source(a.right);
-  if (!left) print(left.error(), told);
-  if (!right) print(right.error(), told);
+  if (!left) print(left.error(), plain);
+  if (!right) print(right.error(), plain);
   if (!left || !right) return kMachine;
   const auto finding = diff::compare(*left_form, *left, *right, {a.within, a.pixels});
-  if (!finding) return print(finding.error(), told), kMachine;
+  if (!finding) return print(finding.error(), plain), kMachine;
   if (common.json) write_standard_output(json(*finding, a));
   else if (!common.quiet) write_standard_output(summary(*finding, a));
   return finding->differs ? kSceneWrong : kDone;

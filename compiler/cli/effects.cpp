@@ -88,7 +88,7 @@ constexpr Row kOptions[] = {
     {"off-edge", kPictures, with_samples},
 };
 
-// Keys whose effect depends on what is made of the scene; those that never have one are told when the scene is read.
+// Keys whose effect depends on what is made of the scene; the reader warns of those that never have one.
 constexpr Row kKeys[] = {
     {"ambient", kPictures, without_light},      {"bake.atlas", kExports, never},         {"bake.lights", kExports, without_lamps},
     {"bake.mirrors", kPictures, without_lamps}, {"bake.quality", kPictures, of_quality}, {"cover.min_pixels", kExports, of_the_disk},
@@ -125,20 +125,21 @@ const char* why_idle(const Row& row, const Situation& now) {
 
 Diagnostics without_effect(const std::vector<std::string>& options, const Use& use, const driver::LoadedScene& loaded) {
   const Situation now{use, loaded};
-  Diagnostics told;
+  Diagnostics warnings;
   for (const std::string& option : options) {
     const Row* row = std::find_if(std::begin(kOptions), std::end(kOptions), [&](const Row& r) { return option == r.name; });
     const char* why = row == std::end(kOptions) ? nullptr : why_idle(*row, now);
-    if (why) told.push_back(make_warning("cli.no-effect", fmt::format("--{} changes nothing here: {}", option, why), "leave it out"));
+    if (why) warnings.push_back(make_warning("cli.no-effect", fmt::format("--{} changes nothing here: {}", option, why), "leave it out"));
   }
-  if (use.targets == kSvg) return told;  // a scene is written for pictures; its tiling is a by-product
+  if (use.targets == kSvg) return warnings;  // a scene is written for pictures; its tiling is a by-product
   for (const scene::GivenKey& key : loaded.scene.given_keys) {
     const Row* row = std::find_if(std::begin(kKeys), std::end(kKeys), [&](const Row& r) { return key.path == r.name; });
     const char* why = row == std::end(kKeys) ? nullptr : why_idle(*row, now);
     if (why)
-      told.push_back(make_warning("scene.no-effect", fmt::format("`{}` changes nothing here: {}", key.path, why), "remove it", key.span));
+      warnings.push_back(
+          make_warning("scene.no-effect", fmt::format("`{}` changes nothing here: {}", key.path, why), "remove it", key.span));
   }
-  return told;
+  return warnings;
 }
 
 }  // namespace orbc::cli

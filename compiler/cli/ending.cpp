@@ -47,9 +47,9 @@ Ending& ending() {
   }
   std::error_code ignored;
   for (const std::filesystem::path& path : all.temporaries) std::filesystem::remove_all(path, ignored);
-  const std::string told = all.written ? "stopped; the output was already written" : "stopped; nothing was written";
-  write_at_once(STDERR_FILENO, "orbc: " + told + "\n");
-  if (all.json) write_at_once(STDOUT_FILENO, failure_json("cli.stopped", told));
+  const std::string message = all.written ? "stopped; the output was already written" : "stopped; nothing was written";
+  write_at_once(STDERR_FILENO, "orbc: " + message + "\n");
+  if (all.json) write_at_once(STDOUT_FILENO, failure_json("cli.stopped", message));
   ::_exit(kInterrupted);
 }
 
@@ -71,7 +71,7 @@ void end_on_signals(bool json) {
   Ending& all = ending();
   all.json = json;
   ::pthread_sigmask(SIG_SETMASK, nullptr, &all.mask_at_start);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe and a file too large are errors of write(), told like any other
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe and a file too large are errors of write(), printed like any other
   std::signal(SIGXFSZ, SIG_IGN);
   sigemptyset(&all.waited_for);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})

@@ -40,12 +40,12 @@ int enumerate(const EnumerateArguments& a, const Common& common) {
     print(count.error(), common);
     return kSceneWrong;
   }
-  const std::string told =
+  const std::string summary =
       fmt::format("{} {}orbifold{} with {} corners of order at most {}", with_commas(*count), a.space.empty() ? "" : a.space + " ",
                   *count == 1 ? "" : "s", a.corners == 1 ? 0 : a.corners, a.max_order);
   if (*count > kManyLines && !a.all)
-    throw UsageError(told + ": more than a million lines; --all prints them, a smaller --max-order or --space makes them fewer");
-  if (!common.quiet && !common.json) say(fmt::format("{}\n", told));
+    throw UsageError(summary + ": more than a million lines; --all prints them, a smaller --max-order or --space makes them fewer");
+  if (!common.quiet && !common.json) print_message(fmt::format("{}\n", summary));
   std::string text = common.json ? "[" : "";
   bool first = true;
   const auto done = notation::enumerate(a.corners, a.max_order, [&](const notation::Orbifold& orbifold, geometry::Space space) {

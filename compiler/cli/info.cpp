@@ -138,7 +138,7 @@ int info(const InfoArguments& a, const Common& common) {
   Diagnostics notes;
   const auto facts = facts_of(a, notes);
   if (!facts) return print(facts.error(), common), kSceneWrong;
-  if (!common.quiet) for (const Diagnostic& note : notes) say(to_text(note));
+  if (!common.quiet) for (const Diagnostic& note : notes) print_message(to_text(note));
   write_standard_output(common.json ? json_text(*facts, a.copies) : people_text(*facts));
   return kDone;
 }

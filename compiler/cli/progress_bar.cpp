@@ -49,11 +49,11 @@ void ProgressBar::show(std::string_view stage, std::uint64_t done, std::uint64_t
     line += fmt::format("  {}{}/s", scaled(static_cast<double>(done) / seconds), unit);
     if (total && share > 0) line += "  " + clock_text(seconds / share - seconds) + " left";
   }
-  say(line);
+  print_message(line);
 }
 
 void ProgressBar::clear() {
-  if (drawn_) say("\r\033[K");
+  if (drawn_) print_message("\r\033[K");
   drawn_ = false;
 }
 

@@ -87,7 +87,7 @@ int render_elsewhere(const driver::PreparedScene& scene, const RenderArguments& 
   append(diagnostics, drawn.exported.notes);
   print_result(std::move(result), diagnostics, common);
   if (!common.quiet)
-    say(fmt::format("{}: {}x{}, {} samples a pixel, drawn by {} from {} copies, {} triangles, true within {:.3g} px\n",
+    print_message(fmt::format("{}: {}x{}, {} samples a pixel, drawn by {} from {} copies, {} triangles, true within {:.3g} px\n",
                     shown(a.compile.output), scene.loaded().eye.width, scene.loaded().eye.height, a.samples, a.engine, r.copies,
                     r.triangles, r.error_bound_px));
   return kDone;
@@ -106,7 +106,7 @@ int render_here(const driver::PreparedScene& scene, const RenderArguments& a, Pi
   if (!film.error.empty()) result["noise"] = render::rms_noise(film, scene.scene().exposure);
   print_result(std::move(result), scene.loaded().notes, common);
   if (!common.quiet)
-    say(fmt::format("{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
+    print_message(fmt::format("{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
                     noise_text(film, scene.scene().exposure)));
   return kDone;
 }
@@ -128,7 +128,7 @@ Drawn draw_elsewhere(const driver::PreparedScene& scene, const RenderArguments& 
   }
   print(drawn.exported.notes, common);
   const std::string picture = (folder.path() / "picture.png").string();
-  if (!common.quiet && stderr_is_terminal()) say(fmt::format("{} draws ...\n", a.engine));
+  if (!common.quiet && stderr_is_terminal()) print_message(fmt::format("{} draws ...\n", a.engine));
   if (const int code = run_child({drawing_command(a, scene.loaded().eye, exported.output, picture, common), folder.path().string()});
       code != 0) {
     print({make_error("cli.not-drawn", fmt::format("{} did not draw the export (exit code {})", a.engine, code),

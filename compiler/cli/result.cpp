@@ -28,9 +28,9 @@ nlohmann::ordered_json json_of(const Diagnostics& diagnostics) {
 
 std::string to_json(const Diagnostics& diagnostics) { return text_of(json_of(diagnostics)); }
 
-void print_result(nlohmann::ordered_json result, const Diagnostics& told, const Common& common) {
+void print_result(nlohmann::ordered_json result, const Diagnostics& diagnostics, const Common& common) {
   if (!common.json) return;
-  result["diagnostics"] = json_of(told);
+  result["diagnostics"] = json_of(diagnostics);
   write_standard_output(text_of(result) + "\n");
 }
 

@@ -9,8 +9,8 @@ namespace orbc::cli {
 /// Diagnostics as docs/json.md describes them.
 [[nodiscard]] nlohmann::ordered_json json_of(const Diagnostics& diagnostics);
 
-/// With --json: prints a command's result, one object on standard output, with what was told on the way as its last key, `diagnostics`.
-void print_result(nlohmann::ordered_json result, const Diagnostics& told, const Common& common);
+/// With --json: prints a command's result, one object on standard output, with the diagnostics of the command as its last key.
+void print_result(nlohmann::ordered_json result, const Diagnostics& diagnostics, const Common& common);
 
 /// What stopped a program, an error of the given code, as one JSON object.
 [[nodiscard]] std::string failure_json(const std::string& code, const std::string& message);

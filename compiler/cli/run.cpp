@@ -48,7 +48,7 @@ int run_command(const Command& command, const Common& common) {
   try {
     return command.run(common);
   } catch (const UsageError& error) {
-    say(fmt::format("orbc {}: {}\n", command.options->get_name(), error.what()));
+    print_message(fmt::format("orbc {}: {}\n", command.options->get_name(), error.what()));
     if (common.json) print_failure("cli.usage", error.what());
     return kUsage;
   }
@@ -77,7 +77,7 @@ int dispatch(int argc, char** argv) {
       return code;
     }
     const std::string message = usage_message(program, error, {argv + 1, argv + argc});
-    say(fmt::format("{}\n", message));
+    print_message(fmt::format("{}\n", message));
     if (asks_for_json(argc, argv)) print_failure("cli.usage", message);
     return kUsage;
   }
@@ -96,7 +96,7 @@ int run(int argc, char** argv) {
   reserve_standard_streams();
   end_on_signals(asks_for_json(argc, argv));
   const auto fail = [&](const char* code, const std::string& message, int exit_code) {
-    say(fmt::format("orbc: {}\n", message));
+    print_message(fmt::format("orbc: {}\n", message));
     if (asks_for_json(argc, argv)) print_failure(code, message);
     return exit_code;
   };

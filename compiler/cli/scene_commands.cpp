@@ -29,7 +29,7 @@ int new_scene(const NewArguments& a, const Common& common) {
         "notation.non-orbifold-room",
         "a corner that is no integer: the mirror images of this room overlap, each is seen through its chain of mirrors alone",
         "the scene says `allow_non_orbifold: true`; corners with integers make an orbifold", options.span));
-  if (!common.quiet) say(to_text(notes));
+  if (!common.quiet) print_message(to_text(notes));
   const auto room = room::realise(parsed->orbifold, {}, true);
   if (!room) return print(located(room.error(), options.span), common), kSceneWrong;
   const std::string notation = notation::to_text(parsed->orbifold);
@@ -57,7 +57,7 @@ int check(const CheckArguments& a, const Common& common) {
     all.insert(all.end(), found.begin(), found.end());
     if (!loaded) code = kSceneWrong;
     else if (!common.quiet && !common.json)
-      say(fmt::format("{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
+      print_message(fmt::format("{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
                  notation::to_text(loaded->scene.orbifold), loaded->interior->polygon.walls.size(), loaded->scene.objects.size(),
                  loaded->scene.lamps.size()));
   }

@@ -14,13 +14,13 @@ namespace orbc::cli {
 
 void print(const Diagnostics& diagnostics, const Common& common) {
   std::string text;
-  const auto told = [&](const Diagnostic& d) {
+  const auto is_printed = [&](const Diagnostic& d) {
     const bool asks = d.severity == Severity::warning || !d.hint.empty();  // a note with a hint has something to do for the author
     return d.severity == Severity::error || (asks && !common.quiet) || common.verbose;
   };
   for (const Diagnostic& d : diagnostics)
-    if (told(d)) text += to_text(d);
-  say(text);
+    if (is_printed(d)) text += to_text(d);
+  print_message(text);
   if (common.json && has_error(diagnostics)) write_standard_output("{\"diagnostics\": " + to_json(diagnostics) + "}\n");
 }
 
@@ -62,20 +62,20 @@ std::uint64_t parse_bytes(const std::string& text) {
 
 scene::Overrides overrides_of(const SceneArguments& a) {
   scene::Overrides overrides;
-  const auto say = [&](const char* option, const char* key, const std::string& value) {
+  const auto add_override = [&](const char* option, const char* key, const std::string& value) {
     if (!value.empty()) overrides.push_back({fmt::format("<{}>", option), fmt::format("{}={}", key, value)});
   };
   if (!a.size.empty()) {
     const std::array<int, 2> size = parse_size(a.size);
-    say("--size", "camera.size", fmt::format("[{}, {}]", size[0], size[1]));
+    add_override("--size", "camera.size", fmt::format("[{}, {}]", size[0], size[1]));
   }
-  if (a.max_bounces) say("--max-bounces", "cover.max_bounces", std::to_string(*a.max_bounces));
-  say("--projection", "camera.projection", a.projection);
-  say("--integrator", "integrator", a.integrator);
-  say("--atlas", "bake.atlas", a.atlas);
-  say("--lights", "bake.lights", a.lights);
-  say("--quality", "bake.quality", a.quality);
-  say("--expected-background", "cover.background", a.expected_background ? "expected" : "");
+  if (a.max_bounces) add_override("--max-bounces", "cover.max_bounces", std::to_string(*a.max_bounces));
+  add_override("--projection", "camera.projection", a.projection);
+  add_override("--integrator", "integrator", a.integrator);
+  add_override("--atlas", "bake.atlas", a.atlas);
+  add_override("--lights", "bake.lights", a.lights);
+  add_override("--quality", "bake.quality", a.quality);
+  add_override("--expected-background", "cover.background", a.expected_background ? "expected" : "");
   append_set(a.set, overrides);
   return overrides;
 }

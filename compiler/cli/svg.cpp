@@ -157,7 +157,7 @@ int draw_svg(const SvgArguments& a, const Common& common) {
   refuse_inputs({a.output}, {a.motif});
   const svg::RoomDrawing drawing = svg::draw_room(*room, *picture);
   notes.insert(notes.end(), drawing.notes.begin(), drawing.notes.end());
-  if (!common.quiet) say(to_text(notes));
+  if (!common.quiet) print_message(to_text(notes));
   write_output(a.output, drawing.svg);
   if (common.json)
     write_standard_output(nlohmann::ordered_json{{"output", a.output},
@@ -168,7 +168,7 @@ int draw_svg(const SvgArguments& a, const Common& common) {
                               .dump(2) +
                           "\n");
   else if (!common.quiet && a.output != "-")
-    say(fmt::format("{}: {} copies of {}\n", a.output, drawing.copies, notation::to_text(room->orbifold)));
+    print_message(fmt::format("{}: {} copies of {}\n", a.output, drawing.copies, notation::to_text(room->orbifold)));
   return kDone;
 }
 

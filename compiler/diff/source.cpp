@@ -16,9 +16,9 @@ bool is_alphanumeric(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <
 Result<std::string> read_whole(const std::string& path) {
   auto bytes = files::read_file(path, kMaxBytes);
   if (bytes) return bytes;
-  Diagnostics told = bytes.error();
-  for (Diagnostic& d : told) d.code = "diff.cannot-read";
-  return told;
+  Diagnostics faults = bytes.error();
+  for (Diagnostic& d : faults) d.code = "diff.cannot-read";
+  return faults;
 }
 
 // "a-atlas-0a1b2c3d4e5f.png" without the digits that say what is in the file: that is compared by itself.
@@ -44,9 +44,9 @@ Result<Source> read_source(const std::string& path) {
 Result<std::string> read_beside(const Source& source, std::string_view reference) {
   const auto path = files::referred_path(reference, source.name, source.folder);
   if (path) return read_whole(*path);
-  Diagnostics told = path.error();
-  for (Diagnostic& d : told) d.code = "diff.cannot-read";
-  return told;
+  Diagnostics faults = path.error();
+  for (Diagnostic& d : faults) d.code = "diff.cannot-read";
+  return faults;
 }
 
 bool same_name(std::string_view a, const Source& in_a, std::string_view b, const Source& in_b) {

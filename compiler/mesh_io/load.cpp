@@ -69,7 +69,7 @@ Result<mesh::LoadedMesh> load_mesh(const std::string& path, const LoadOptions& o
     return make_error("mesh.unknown-format", fmt::format("{}: is not a kind of mesh file that is known here", path),
                       hint_for_ending(lower_case(std::filesystem::path(path).extension().string())));
   }
-  tell_read(options, path);
+  report_read(options, path);
   auto bytes = files::read_file(path, options.max_file_bytes);
   if (!bytes) return std::move(bytes).error();
   auto folder = std::filesystem::path(path).parent_path().string();
@@ -79,7 +79,7 @@ Result<mesh::LoadedMesh> load_mesh(const std::string& path, const LoadOptions& o
 mesh::AssetSource assets_from_files(const LoadOptions& options) {
   return {[options](const std::string& path) { return load_mesh(path, options); },
           [options](const std::string& path) {
-            tell_read(options, path);
+            report_read(options, path);
             return image_io::load_image(path, options.images);
           }};
 }

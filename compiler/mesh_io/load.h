@@ -15,11 +15,12 @@ struct LoadOptions {
   std::uint64_t max_file_bytes = std::uint64_t{1} << 30;  ///< of the file and of each kind of thing it refers to, together
   std::uint64_t max_triangles = 20'000'000;               ///< after triangulation and instancing; vertices: three times as many
   image_io::ImageLimits images;
-  std::function<void(const std::string& path)> on_read;   ///< called with every file that is read: meshes, and what they refer to
+  /// Called with the path of every file before it is read: of meshes, and of the files that they refer to. May be empty.
+  std::function<void(const std::string& path)> on_read;
 };
 
-/// Calls `options.on_read`, if there is one.
-inline void tell_read(const LoadOptions& options, const std::string& path) {
+/// Calls `options.on_read` unless it is empty.
+inline void report_read(const LoadOptions& options, const std::string& path) {
   if (options.on_read) options.on_read(path);
 }
 

@@ -65,7 +65,7 @@ tinygltf::FsCallbacks callbacks(ReferredFiles& files) {
       return decoded.has_value();
     }
     const auto full = path_of(own, path);
-    if (full) tell_read(own.context.options, *full);
+    if (full) report_read(own.context.options, *full);
     auto bytes = full ? files::read_file(*full, own.max_bytes) : Result<std::string>(Diagnostics{});
     if (!bytes) {
       *error = "refused";

@@ -222,7 +222,7 @@ Result<ObjData> read_statements(std::string_view text, const ReadContext& contex
 Result<std::string> read_library(const std::string& reference, const ReadContext& context) {
   auto path = find_referred_file(reference, context);
   if (!path) return path.error();
-  tell_read(context.options, *path);
+  report_read(context.options, *path);
   return files::read_file(*path, kMaxMtlBytes);
 }
 

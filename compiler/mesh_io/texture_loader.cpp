@@ -74,7 +74,7 @@ int TextureLoader::load(std::string_view reference) {
   for (const auto& texture : textures) used += texture.rgba.size();
   auto limits = context_.options.images;
   limits.max_bytes = limits.max_bytes > used ? limits.max_bytes - used : 0;
-  tell_read(context_.options, *path);
+  report_read(context_.options, *path);
   auto image = image_io::load_image(*path, limits);
   if (!image) {
     warn(image.error());
