@@ -12,8 +12,10 @@ namespace {
 
 using place::PlacedMesh;
 
+/// Rounded, so that edges of equal length are equal, and the first of them counts as the longest, whatever the last bits say.
 double edge_length(geometry::Space space, const PlacedMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  return math::hypot(geometry::distance(space, mesh.floor[a], mesh.floor[b]), mesh.z[a] - mesh.z[b]);
+  const double length = math::hypot(geometry::distance(space, mesh.floor[a], mesh.floor[b]), mesh.z[a] - mesh.z[b]);
+  return static_cast<double>(static_cast<float>(length));
 }
 
 /// An edge of a triangle by its two ends.

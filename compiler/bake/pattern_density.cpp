@@ -56,7 +56,11 @@ bool exceeds_interpolation_error(const place::Interior& interior, const place::P
 
 }  // namespace
 
-int halvings(double cells) { return std::clamp(static_cast<int>(std::lround(math::log2(std::max(1.0, cells)))), 0, kMaxPatternHalvings); }
+int halvings(double cells) {
+  constexpr double kTie =
+      1e-5;  // diagonals of cells lie in the middle of two powers of two: they get the smaller one, whatever the last bits
+  return std::clamp(static_cast<int>(std::lround(math::log2(std::max(1.0, cells)) - kTie)), 0, kMaxPatternHalvings);
+}
 
 double pattern_density(const place::Interior& interior, const place::PlacedMesh& mesh, const TexelPatch& patch,
                        const BakeOptions& options) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compiler/driver/renderer_scale.h"
+#include "compiler/driver/unit_of_length.h"
 #include "compiler/native_lights/lamps.h"
 #include "compiler/native_lights/split.h"
 #include "compiler/notation/print.h"
@@ -80,11 +81,11 @@ Result<native_lights::NativeLights> native_lights_of(const Job& job, const DrawL
   return native_lights::place_native_lights({scene.scene(), scene.interior(), job.eye, lamps.lamps, lamps.images}, list.copies, lit_copies);
 }
 
-LodSummary lod_summary(const lod::InteriorWithLods& lods, std::size_t part) {
+LodSummary lod_summary(const lod::InteriorWithLods& lods, std::size_t part, double unit) {
   LodSummary summary{lods.interior.parts[part].name, {}, {}};
   for (const std::uint32_t level : lods.part_of_level[part]) {
     summary.triangles.push_back(lods.interior.parts[level].triangles.size());
-    summary.surface_offset.push_back(lods.surface_offset[level]);
+    summary.surface_offset.push_back(lods.surface_offset[level] / unit);
   }
   return summary;
 }
@@ -115,7 +116,7 @@ Report report_of(const Job& job, const Drawing& drawing, const Product& product)
   r.words = words.size();
   const lod::InteriorWithLods& lods = job.scene.lods(job.run);
   for (std::size_t p = 0; p < room_part_count(lods); ++p)
-    if (lods.part_of_level[p].size() > 1) r.lods.push_back(lod_summary(lods, p));
+    if (lods.part_of_level[p].size() > 1) r.lods.push_back(lod_summary(lods, p, job.scene.loaded().unit_of_length));
   return r;
 }
 
@@ -160,6 +161,7 @@ Result<Compiled> assemble(const Job& job, Drawing drawing) {
   compiled.product = product_of(job, drawing);
   compiled.product.native = std::move(native);
   compiled.product.normals = std::move(normals);
+  compiled.product = in_author_unit(std::move(compiled.product), job.scene.loaded().unit_of_length);
   add_notes(compiled.notes, located(scale_for_renderers(compiled.product), job.lit_scene.scene().camera.span));
   compiled.report = report_of(job, drawing, compiled.product);
   return compiled;

@@ -7,12 +7,13 @@
 #include <cerrno>
 #include <cstring>
 #include <utility>
+#include <vector>
 
+#include "compiler/driver/unit_of_length.h"
 #include "compiler/light/lighting.h"
 #include "compiler/mesh_io/load.h"
 #include "compiler/place/furnish.h"
 #include "compiler/room/realise.h"
-#include "compiler/scene/read.h"
 
 namespace orbc::driver {
 namespace {
@@ -39,32 +40,54 @@ Result<scene::ReadResult> read(const std::string& path, const scene::Overrides& 
 
 void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-}  // namespace
-
-Result<LoadedScene> load(const std::string& path, const scene::Overrides& overrides) {
-  auto read_in = read(path, overrides);
-  if (!read_in) return read_in.error();
-  LoadedScene loaded;
-  loaded.scene = std::move(read_in->scene);
-  loaded.notes = std::move(read_in->notes);
-  const scene::Scene& scene = loaded.scene;
-  const auto room = room::realise(scene.orbifold, scene.room.shape, scene.allow_non_orbifold);
-  if (!room) return located(room.error(), scene.room.shape.span.source ? scene.room.shape.span : scene.span);
-  loaded.files.push_back(path);
-  mesh_io::LoadOptions options;
-  options.on_read = [&files = loaded.files](const std::string& file) { files.push_back(file); };
-  auto furnished = place::furnish(scene, *room, mesh_io::assets_from_files(options));
-  if (!furnished) return located(furnished.error(), scene.span);
-  append(loaded.notes, located(furnished->warnings, scene.span));
-  auto lamps = light::prepare_lamps(scene, furnished->interior, light::light_options(scene));
+/// place lamps → eye. In: what has been told so far.
+Result<LoadedScene> light_and_look(scene::Scene scene, place::Interior interior, Diagnostics notes) {
+  auto lamps = light::prepare_lamps(scene, interior, light::light_options(scene));
   if (!lamps) return located(lamps.error(), scene.span);
-  append(loaded.notes, located(lamps->warnings, scene.span));
-  loaded.interior = std::make_shared<const place::Interior>(light::with_lamp_bodies(scene, lamps->lamps, std::move(furnished->interior)));
+  append(notes, located(lamps->warnings, scene.span));
+  LoadedScene loaded;
+  loaded.interior = std::make_shared<const place::Interior>(light::with_lamp_bodies(scene, lamps->lamps, std::move(interior)));
   loaded.lamps = std::make_shared<const light::LampSet>(std::move(*lamps));
   const auto eye = place::make_camera(scene, *loaded.interior);
   if (!eye) return located(eye.error(), scene.camera.span.source ? scene.camera.span : scene.span);
   loaded.eye = *eye;
+  loaded.scene = std::move(scene);
+  loaded.notes = std::move(notes);
   return loaded;
+}
+
+}  // namespace
+
+Result<LoadedScene> load(const std::string& path, const scene::Overrides& overrides, std::uint64_t max_memory) {
+  auto read_in = read(path, overrides);
+  if (!read_in) return read_in.error();
+  std::vector<std::string> files{path};
+  mesh_io::LoadOptions options = mesh_io::bounds_within(max_memory);
+  options.on_read = [&files](const std::string& file) { files.push_back(file); };
+  auto loaded = load(*std::move(read_in), mesh_io::assets_from_files(options));
+  if (loaded) loaded->files = std::move(files);
+  return loaded;
+}
+
+Result<LoadedScene> load(scene::ReadResult read, const mesh::AssetSource& assets) {
+  const scene::Scene& scene = read.scene;
+  const auto room = room::realise(scene.orbifold, scene.room.shape, scene.allow_non_orbifold);
+  if (!room) return located(room.error(), scene.room.shape.span.source ? scene.room.shape.span : scene.span);
+  auto furnished = place::furnish(scene, *room, assets);
+  if (!furnished) return located(furnished.error(), scene.span);
+  append(read.notes, located(std::move(furnished->warnings), scene.span));
+  const double unit = unit_of_length(scene, room->space);
+  if (unit == 1) return light_and_look(std::move(read.scene), std::move(furnished->interior), std::move(read.notes));
+  auto loaded = light_and_look(scaled(scene, unit), scaled(std::move(furnished->interior), unit), std::move(read.notes));
+  if (loaded) {
+    loaded->unit_of_length = unit;
+    return loaded;
+  }
+  // Errors are told in the author's unit.
+  auto again = place::furnish(scene, *room, assets);
+  if (!again) return loaded.error();
+  const auto told = light_and_look(scene, std::move(again->interior), {});
+  return told ? loaded.error() : told.error();
 }
 
 }  // namespace orbc::driver

@@ -5,9 +5,11 @@
 
 #include "compiler/base/result.h"
 #include "compiler/light/lighting.h"
+#include "compiler/mesh/asset_source.h"
 #include "compiler/place/camera.h"
 #include "compiler/place/interior.h"
 #include "compiler/scene/override.h"
+#include "compiler/scene/read.h"
 #include "compiler/scene/scene.h"
 
 namespace orbc::driver {
@@ -20,11 +22,17 @@ struct LoadedScene {
   place::Camera eye;                                ///< the scene's camera
   Diagnostics notes;
   std::vector<std::string> files = {};              ///< all that were read: the scene ("-" is standard input), meshes, what they refer to
+  double unit_of_length = 1;  ///< the author's, in that of this scene, which all lengths above have (unit_of_length.h)
 };
 
-/// read → realise → furnish → place lamps → eye.
-/// In:          a path, or "-" for standard input; values that replace those of the scene.
+/// read → realise → furnish → place lamps → eye. Flat rooms get a unit of length of their own.
+/// In:          a path, or "-" for standard input; values that replace those of the scene; bytes that the program may take, which bound
+///              meshes and pictures.
 /// Diagnostics: those of the rooms it goes through, with places in the file.
-[[nodiscard]] Result<LoadedScene> load(const std::string& path, const scene::Overrides& overrides = {});
+[[nodiscard]] Result<LoadedScene> load(const std::string& path, const scene::Overrides& overrides = {},
+                                       std::uint64_t max_memory = std::uint64_t{4} << 30);
+
+/// The same for a scene that has been read, with its meshes and pictures from anywhere. Keeps the notes of reading.
+[[nodiscard]] Result<LoadedScene> load(scene::ReadResult read, const mesh::AssetSource& assets);
 
 }  // namespace orbc::driver

@@ -21,7 +21,9 @@ LoadedScene unlit_scene(const LoadedScene& lit) {
           std::make_shared<const place::Interior>(std::move(copy.interior)),
           std::make_shared<const light::LampSet>(),
           lit.eye,
-          {}};
+          {},
+          {},
+          lit.unit_of_length};
 }
 
 Result<DrawnSurfaces> plain_surfaces(const PreparedScene& scene, const place::Interior& interior) {

@@ -4,6 +4,7 @@
 
 #include "compiler/bake/diffuse.h"
 #include "compiler/cutoff/estimate.h"
+#include "compiler/driver/unit_of_length.h"
 #include "compiler/render/draw.h"
 
 namespace orbc::driver {
@@ -46,7 +47,7 @@ render::Film trace_film(const PreparedScene& scene, const place::Camera& eye, co
     spec.quality = *options.path_quality;
     draw.paths = path_count(spec);
   }
-  return render::draw(scene.trace_context(run).tracer, eye, draw, executor, progress);
+  return in_author_unit(render::draw(scene.trace_context(run).tracer, eye, draw, executor, progress), scene.loaded().unit_of_length);
 }
 
 render::Film trace_film(const LoadedScene& scene, const TraceOptions& options, const Executor& executor, const Progress& progress) {

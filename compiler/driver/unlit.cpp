@@ -45,18 +45,21 @@ bool is_free(const LoadedScene& loaded, const scene::Lamp& lamp) {
   return placed.has_value() && placed->warnings.empty() && light::lamps_inside_objects(lit, placed->lamps, *loaded.interior).empty();
 }
 
+/// A length as the hint writes it: with two digits in the author's unit. Makes: the same in the scene's unit.
+double rounded_length(const LoadedScene& loaded, double length) { return loaded.unit_of_length * rounded(length / loaded.unit_of_length); }
+
 /// A lamp in the first free place: at the centre below the ceiling, or beside it or lower. Nothing when there is none.
 std::optional<scene::Lamp> free_lamp(const LoadedScene& loaded) {
   const double height = loaded.scene.room.height, near = distance_to_walls(loaded);
   scene::Lamp lamp;
-  lamp.radius = rounded(std::min(0.06 * near, 0.08 * height));
+  lamp.radius = rounded_length(loaded, std::min(0.06 * near, 0.08 * height));
   for (const double aside : {0.0, 0.3, 0.6})
     for (const double turn : {0.0, 90.0, 180.0, 270.0})
       for (const double part : {0.8, 0.65, 0.5}) {
-        const double z = rounded(part * height);
-        lamp.place.floor = scene::AtPolar{rounded(aside * near), Angle::from_degrees(turn)};
+        const double z = rounded_length(loaded, part * height);
+        lamp.place.floor = scene::AtPolar{rounded_length(loaded, aside * near), Angle::from_degrees(turn)};
         lamp.place.z = z;
-        lamp.power = rounded(power_of(loaded, z));
+        lamp.power = power_of(loaded, z);
         if (is_free(loaded, lamp)) return lamp;
       }
   return std::nullopt;
@@ -69,8 +72,10 @@ Diagnostics unlit_note(const LoadedScene& loaded) {
   std::string hint = "add `lights:`";
   if (const auto lamp = free_lamp(loaded)) {
     const auto& at = std::get<scene::AtPolar>(lamp->place.floor);
+    const double unit = loaded.unit_of_length;
     hint = fmt::format("for light and shadow add the line   lights: [{{at: {{polar: [{}, {:.0f}deg], z: {}}}, radius: {}, power: {}}}]",
-                       at.r, at.angle.degrees(), *lamp->place.z, lamp->radius, lamp->power);
+                       rounded(at.r / unit), at.angle.degrees(), rounded(*lamp->place.z / unit), rounded(lamp->radius / unit),
+                       rounded(lamp->power / (unit * unit)));
   }
   return {make_note("driver.no-lights", "the scene has no lights: it is shown in its plain colours, which looks flat", hint,
                     loaded.scene.orbifold_span)};

@@ -104,7 +104,10 @@ Guide guide_at(const LightingContext& lighting, const surface::ShadingPoint& poi
       if (const auto lobe = lobe_of(lighting, image, spot, point, guide)) lobes.push_back(*lobe);
   }
   if (lobes.empty()) return guide;
-  std::stable_sort(lobes.begin(), lobes.end(), [](const Guide::Lobe& a, const Guide::Lobe& b) { return a.probability > b.probability; });
+  // Rounded: lobes that are equal by symmetry keep their order, whatever the last bits say.
+  std::stable_sort(lobes.begin(), lobes.end(), [](const Guide::Lobe& a, const Guide::Lobe& b) {
+    return static_cast<float>(a.probability) > static_cast<float>(b.probability);
+  });
   guide.count = std::min<int>(static_cast<int>(lobes.size()), Guide::kMaxLobes);
   double sum = 0;
   for (int i = 0; i < guide.count; ++i) sum += lobes[static_cast<std::size_t>(i)].probability;
