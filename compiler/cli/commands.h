@@ -13,6 +13,7 @@ struct Common {
   bool verbose = false;
   bool json = false;                ///< the result as JSON on standard output
   int threads = 0;                  ///< 0 = all cores
+  std::string max_memory = "4GiB";  ///< of the program, without those that it starts
   std::vector<std::string> given;   ///< options on the command line, named without dashes
 };
 
@@ -75,7 +76,6 @@ struct CompileArguments {
   std::string view = "eye";
   double tolerance = 0.5;           ///< pixels
   std::optional<std::uint64_t> max_triangles;
-  std::string max_memory = "4GiB";
   bool no_lod = false;              ///< every copy in all detail
   std::string report;               ///< a file for the report as JSON; "-" = standard output
   bool nodes_per_copy = false;

@@ -68,7 +68,7 @@ Diagnostics notes_of(const driver::Compiled& compiled, const exporters::ExportFo
   return notes;
 }
 
-driver::CompileOptions compile_options(const CompileArguments& a) {
+driver::CompileOptions compile_options(const CompileArguments& a, const Common& common) {
   driver::CompileOptions options;
   options.bend.view = a.view == "disk" ? bend::View::disk : bend::View::eye;
   options.bend.tolerance_px = a.tolerance / driver::kToleranceShares;
@@ -77,7 +77,7 @@ driver::CompileOptions compile_options(const CompileArguments& a) {
   else if (a.max_triangles) options.bend.max_triangles = *a.max_triangles;
   options.by_object = a.nodes_per_object;
   options.highlights = a.highlights;
-  options.max_memory = parse_bytes(a.max_memory);
+  options.max_memory = parse_bytes(common.max_memory);
   return options;
 }
 
@@ -113,7 +113,7 @@ void warn_of_size(const cover::Plan& plan, const exporters::ExportFormat& format
 }
 
 int write_plan(const driver::PreparedScene& scene, const CompileArguments& a, const Common& common) {
-  const auto plan = driver::plan(scene, scene.loaded().eye, compile_options(a), driver::parallel_executor(common.threads));
+  const auto plan = driver::plan(scene, scene.loaded().eye, compile_options(a, common), driver::parallel_executor(common.threads));
   if (!plan) return print(plan.error(), common), kSceneWrong;
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(driver::plan_json(*plan));
   const driver::Amount amount = amount_of(*plan, native_lights::uses_native_lights(scene.scene()));
@@ -149,7 +149,7 @@ Result<Exported> export_scene(const driver::PreparedScene& scene, const CompileA
                       scene.scene().span);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
   const Executor executor = driver::parallel_executor(common.threads);
-  driver::CompileOptions options = compile_options(a);
+  driver::CompileOptions options = compile_options(a, common);
   Diagnostics large;
   if (!a.max_triangles || *a.max_triangles > 4'000'000)  // fewer are small
     options.on_large_plan = [&](const cover::Plan& plan) {
@@ -170,9 +170,8 @@ int compile(const CompileArguments& a, const Common& common) {
   const exporters::ExportFormat& format = a.plan ? *exporters::find_export_format("glb") : format_of(a);
   refuse_what_cannot_be(a, format, common);
   check_nodes(a, format);
-  (void)compile_options(a);  // mistakes on the command line come before those of the scene
   if (!a.plan) check_outputs({a.output, a.report});
-  auto loaded = driver::load(a.scene.scene, overrides_of(a.scene));
+  auto loaded = driver::load(a.scene.scene, overrides_of(a.scene), parse_bytes(common.max_memory));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
   refuse_inputs({a.output, a.report}, loaded->files);
   const unsigned target = a.plan ? kPov | kGltf : !format.write ? kSvg : format.has_nodes ? kGltf : kPov;

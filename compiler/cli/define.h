@@ -47,7 +47,7 @@ void define_man(Program& program);
 
 // Options that several commands share (define_common.cpp).
 
-/// --quiet, --verbose, --json, --threads.
+/// --quiet, --verbose, --json, --threads, --max-memory.
 void add_common(CLI::App& command, Common& common);
 /// --set: any key of the scene.
 void add_set(CLI::App& command, std::vector<std::string>& set);

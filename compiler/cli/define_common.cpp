@@ -12,6 +12,9 @@ void add_common(CLI::App& command, Common& common) {
   command.add_option("--threads", common.threads, "Threads to work with (0 = all cores); the result is the same for any number")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
+  command.add_option("--max-memory", common.max_memory, "Stop rather than take more memory than this; renderers that are started take theirs")
+      ->capture_default_str()
+      ->type_name("SIZE");
 }
 
 void add_set(CLI::App& command, std::vector<std::string>& set) {
@@ -71,9 +74,6 @@ void add_compile_options(CLI::App& command, CompileArguments& a) {
                   "Never make more triangles than this: the picture's error is let grow until they suffice, the report says how far")
       ->type_name("N");
   command.add_flag("--no-lod", a.no_lod, "Draw far copies in all detail, too");
-  command.add_option("--max-memory", a.max_memory, "Refuse what would take more memory than this")
-      ->capture_default_str()
-      ->type_name("SIZE");
   command.add_flag("!--no-highlights", a.highlights, "Leave out what glossy surfaces, metals, mirrors and glass show to this eye alone");
   command.add_option("--max-atlas", a.max_atlas, "Largest side of the atlas in pixels; some viewers hold no more than 8192")
       ->capture_default_str()

@@ -78,7 +78,6 @@ constexpr Row kOptions[] = {
     {"tolerance", kExports, of_the_disk},
     {"max-triangles", kExports, never},
     {"no-lod", kExports, of_the_disk},
-    {"max-memory", kExports, never},
     {"no-highlights", kExports, of_highlights},
     {"max-atlas", kExports, never},
     {"view", kExports, never},

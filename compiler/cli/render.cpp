@@ -154,7 +154,7 @@ int render(const RenderArguments& arguments, const Common& common) {
   check_outputs({a.compile.output});
   if (!here)
     if (const Diagnostics missing = missing_renderer(a.engine); !missing.empty()) return print(missing, common), kMachine;
-  auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene));
+  auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene), parse_bytes(common.max_memory));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
   refuse_inputs({a.compile.output}, loaded->files);
   const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;

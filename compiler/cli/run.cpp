@@ -13,6 +13,7 @@
 #include "compiler/cli/commands.h"
 #include "compiler/cli/define.h"
 #include "compiler/cli/ending.h"
+#include "compiler/cli/memory_limit.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
@@ -46,6 +47,7 @@ bool asks_for_json(int argc, char** argv) {
 
 int run_command(const Command& command, const Common& common) {
   try {
+    limit_memory(parse_bytes(common.max_memory));
     return command.run(common);
   } catch (const UsageError& error) {
     print_message(fmt::format("orbc {}: {}\n", command.options->get_name(), error.what()));
@@ -102,6 +104,11 @@ int run(int argc, char** argv) {
   };
   try {
     return dispatch(argc, argv);
+  } catch (const MemoryLimitReached&) {
+    return fail("cli.max-memory",
+                "--max-memory is reached: allow more, or make less of it: fewer --max-bounces, a smaller --size, --quality draft, smaller "
+                "textures, fewer --threads",
+                kMachine);
   } catch (const std::bad_alloc&) {
     return fail("cli.out-of-memory", "out of memory; try fewer --max-bounces or a larger --tolerance", kMachine);
   } catch (const std::exception& error) {

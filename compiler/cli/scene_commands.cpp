@@ -48,7 +48,7 @@ int check(const CheckArguments& a, const Common& common) {
   scene::Overrides overrides;
   append_set(a.set, overrides);
   for (const std::string& path : a.scenes) {
-    auto loaded = driver::load(path, overrides);
+    auto loaded = driver::load(path, overrides, parse_bytes(common.max_memory));
     if (loaded) append(loaded->notes, without_effect(common.given, {kTraced | kPov | kGltf, false, false, false, 1}, *loaded));
     const Diagnostics& found = loaded ? loaded->notes : loaded.error();
     Common plain = common;

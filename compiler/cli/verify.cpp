@@ -148,7 +148,7 @@ int verify(const VerifyArguments& a, const Common& common) {
   Diagnostics missing = missing_renderer("povray");
   if (a.blender) append(missing, missing_renderer("blender"));
   if (!missing.empty()) return print(missing, common), kMachine;
-  auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene));
+  auto loaded = driver::load(a.compile.scene.scene, overrides_of(a.compile.scene), parse_bytes(common.max_memory));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
   refuse_inputs(outputs, loaded->files);
   const unsigned targets = kTraced | kPov | (a.blender ? unsigned{kGltf} : 0);

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -34,7 +35,8 @@ Diagnostics check_file(const std::string& path, std::uint64_t max_bytes) {
   const auto size = fs::file_size(path, error);
   if (error) return {make_error("mesh.not-a-file", fmt::format("{}: cannot be read ({})", path, error.message()))};
   if (size > max_bytes) {
-    return {make_error("mesh.too-big", fmt::format("{}: {} bytes; at most {} are read", path, size, max_bytes))};
+    return {make_error("mesh.too-big", fmt::format("{}: {} bytes; at most {} are read", path, size, max_bytes),
+                       "make it smaller in the program that made it, or allow more with --max-memory")};
   }
   return {};
 }
@@ -48,6 +50,14 @@ Result<std::string> read_file(const std::string& path, std::uint64_t max_bytes) 
   if (!in || (!bytes.empty() && !in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))) {
     return make_error("mesh.not-a-file", fmt::format("{}: cannot be read", path), "look at its permissions");
   }
+  return bytes;
+}
+
+std::string read_beginning(const std::string& path, std::size_t max_bytes) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(max_bytes, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
   return bytes;
 }
 

@@ -10,6 +10,8 @@ namespace orbc::files {
 /// The bytes of a regular file.
 /// Diagnostics:  mesh.missing-file (the hint names the nearest name in the folder), mesh.not-a-file, mesh.too-big.
 [[nodiscard]] Result<std::string> read_file(const std::string& path, std::uint64_t max_bytes);
+/// The first bytes of a regular file, at most so many; nothing where they cannot be read.
+[[nodiscard]] std::string read_beginning(const std::string& path, std::size_t max_bytes);
 /// Makes: the diagnostics that read_file would give before it reads; none if the file can be read.
 [[nodiscard]] Diagnostics check_file(const std::string& path, std::uint64_t max_bytes);
 

@@ -30,7 +30,9 @@ constexpr std::size_t kSmallestLodTriangles = 24;  // no level has fewer
 constexpr double kTriangleRatio = 0.4;             // of a level to the one before
 constexpr std::size_t kMaxStyles = 256;            // the decimater's materials are bytes
 constexpr int kMaxSubdivisions = 64;               // of an edge
-constexpr double kMaxChartRadius = 1.5;            // H²: the chart ends at 2
+// Parts in more pieces, for their triangles and beyond, have no levels.
+constexpr std::size_t kMaxPiecesPerTriangle = 16, kMaxPieces = 20'000;
+constexpr double kMaxChartRadius = 1.5;  // H²: the chart ends at 2
 constexpr double kUnknownDistance = 1e9;
 
 /// A coarser level of a part.
@@ -77,6 +79,11 @@ class Subdivider {
   Subdivider(const PlacedMesh& part, const std::vector<Vector3>& at, const LocalChart& chart, double h)
       : part_(part), at_(at), chart_(chart), h_(h) {}
 
+  [[nodiscard]] std::size_t pieces(const mesh::Triangle& t) const {
+    const auto n = static_cast<std::size_t>(subdivisions(t));
+    return n * n;
+  }
+
   void add_triangle(const mesh::Triangle& t, mesh::Mesh& into) const {
     const int n = subdivisions(t);
     if (n == 1) return into.triangles.push_back(t);
@@ -102,6 +109,7 @@ class Subdivider {
   }
 
  private:
+  /// Into how many parts each edge of a triangle is cut.
   [[nodiscard]] int subdivisions(const mesh::Triangle& t) const {
     double longest = 0;
     for (int k = 0; k < 3; ++k) longest = std::max(longest, length(at_[t[k]] - at_[t[(k + 1) % 3]]));
@@ -149,6 +157,15 @@ SampledSurface sample_surface(const PlacedMesh& part, const std::vector<Vector3>
   for (const auto& t : part.triangles) subdivider.add_triangle(t, pieces.surface);
   for (const auto& [a, b] : borders_of(part, at)) subdivider.add_line(a, b, pieces.lines);
   return pieces;
+}
+
+/// Whether surfaces can be compared in pieces of length h, in time that follows from the number of triangles. Needles, such as those of
+/// polygons with thousands of corners, would become thousands of pieces each.
+bool is_comparable(const PlacedMesh& part, const std::vector<Vector3>& at, const LocalChart& chart, double h) {
+  const Subdivider subdivider(part, at, chart, h);
+  std::size_t pieces = 0;
+  for (const auto& t : part.triangles) pieces += subdivider.pieces(t);
+  return pieces <= kMaxPiecesPerTriangle * part.triangles.size() + kMaxPieces;
 }
 
 /// The largest distance of a vertex of `from` to the other surface, or `worst` where that is larger. By the triangle inequality a vertex is
@@ -227,6 +244,7 @@ std::vector<Lod> chain_of(Space space, const PlacedMesh& part, const Executor& e
   for (double n = kTriangleRatio * static_cast<double>(part.triangles.size()); n >= kSmallestLodTriangles; n *= kTriangleRatio)
     triangle_counts.push_back(static_cast<std::size_t>(n));
   const double h = sample_spacing(flat, chart);
+  if (!is_comparable(part, flat.positions, chart, h)) return {};
   std::vector<mesh::Decimated> decimated;
   SampledSurface given;
   std::optional<mesh::ClosestPointTree> to_surface, to_lines;

@@ -29,7 +29,7 @@ Diagnostic truncated(const std::string& name, const std::string& what) {
 
 Diagnostic too_many(const std::string& name, const std::string& what, std::uint64_t count, std::uint64_t bound) {
   return make_error("mesh.too-big", fmt::format("{}: {} {}; at most {} are read", name, count, what, bound),
-                    "simplify the mesh in the program that made it");
+                    "simplify the mesh in the program that made it, or allow more with --max-memory");
 }
 
 }  // namespace orbc::mesh_io

@@ -3,17 +3,22 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include "compiler/files/files.h"
 #include "compiler/image_io/decode.h"
+#include "compiler/mesh_io/ply_header.h"
 #include "compiler/mesh_io/read_gltf.h"
 #include "compiler/mesh_io/readers.h"
 #include "compiler/mesh_io/tokens.h"
 
 namespace orbc::mesh_io {
 namespace {
+
+constexpr std::uint64_t kBytesPerTriangle = 400;
+constexpr std::size_t kBeginning = 64 << 10;
 
 std::optional<Format> format_of(const std::string& path) {
   const auto ending = lower_case(std::filesystem::path(path).extension().string());
@@ -46,7 +51,28 @@ Result<PolygonSoup> read_soup(std::string_view bytes, Format format, const ReadC
   }
 }
 
+/// Refuses what its first bytes promise to be too large, before it is read whole: that takes several times its size.
+Diagnostics refuse_by_beginning(const std::string& path, Format format, const LoadOptions& options) {
+  if (format != Format::stl && format != Format::ply) return {};
+  const std::string beginning = files::read_beginning(path, kBeginning);
+  const ReadContext context{path, "", options};
+  if (format == Format::stl) {
+    std::error_code error;
+    return check_stl_size(beginning, std::filesystem::file_size(path, error), context);
+  }
+  const auto header = read_ply_header(beginning, context);
+  return header ? check_ply_size(*header, context) : Diagnostics{};
+}
+
 }  // namespace
+
+LoadOptions bounds_within(std::uint64_t max_memory) {
+  LoadOptions options;
+  options.max_file_bytes = max_memory / 4;
+  options.max_triangles = std::min(options.max_triangles, max_memory / kBytesPerTriangle);
+  options.images.max_bytes = max_memory / 8;
+  return options;
+}
 
 Result<mesh::LoadedMesh> load_mesh_bytes(std::string_view bytes, Format format, const std::string& name, const std::string& folder,
                                          const LoadOptions& options) {
@@ -69,6 +95,7 @@ Result<mesh::LoadedMesh> load_mesh(const std::string& path, const LoadOptions& o
     return make_error("mesh.unknown-format", fmt::format("{}: is not a kind of mesh file that is known here", path),
                       hint_for_ending(lower_case(std::filesystem::path(path).extension().string())));
   }
+  if (auto wrong = refuse_by_beginning(path, *format, options); !wrong.empty()) return wrong;
   report_read(options, path);
   auto bytes = files::read_file(path, options.max_file_bytes);
   if (!bytes) return std::move(bytes).error();

@@ -10,10 +10,10 @@
 
 namespace orbc::mesh_io {
 
-/// Bounds on what a mesh file may ask of the machine.
+/// Bounds on what a mesh file may ask of the machine. The defaults are those of 4 GiB.
 struct LoadOptions {
   std::uint64_t max_file_bytes = std::uint64_t{1} << 30;  ///< of the file and of each kind of thing it refers to, together
-  std::uint64_t max_triangles = 20'000'000;               ///< after triangulation and instancing; vertices: three times as many
+  std::uint64_t max_triangles = 10'000'000;               ///< after triangulation and instancing; vertices: three times as many
   image_io::ImageLimits images;
   /// Called with the path of every file before it is read: of meshes, and of the files that they refer to. May be empty.
   std::function<void(const std::string& path)> on_read;
@@ -23,6 +23,10 @@ struct LoadOptions {
 inline void report_read(const LoadOptions& options, const std::string& path) {
   if (options.on_read) options.on_read(path);
 }
+
+/// The bounds that suit a program that may take so many bytes: a quarter of them for a file, an eighth for the pictures of a mesh, and 400
+/// for each triangle, which is what it takes from the file to the tracer and the bake.
+[[nodiscard]] LoadOptions bounds_within(std::uint64_t max_memory);
 
 /// Reads a mesh file: OBJ with its MTL, PLY, OFF, STL, GLB or glTF. The ending of the path says which.
 /// Makes:        one triangle mesh in the file's own axes (glTF: y up), positions in double precision. Polygons are triangulated. A vertex

@@ -37,6 +37,9 @@ struct PlyHeader {
 /// Diagnostics: mesh.bad-header, mesh.truncated.
 [[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view bytes, const ReadContext& context);
 
+/// Diagnostics: mesh.too-big when the header promises more vertices or faces than may be read.
+[[nodiscard]] Diagnostics check_ply_size(const PlyHeader& header, const ReadContext& context);
+
 /// Reads one number after the other from the body, whatever its encoding.
 class PlyBody {
  public:

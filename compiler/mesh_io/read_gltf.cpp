@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <tiny_gltf.h>
 
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -129,6 +130,8 @@ Result<mesh::LoadedMesh> read_gltf(std::string_view bytes, bool binary, const Re
     return assemble({model, context}, files.pictures);
   } catch (const GltfError& error) {
     return error.diagnostic;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& thrown) {
     return make_error("mesh.bad-gltf", fmt::format("{}: {}", context.name, first_line(thrown.what())), kValidatorHint);
   }

@@ -87,8 +87,6 @@ Diagnostics check_vertex_element(const PlyElement& element, PlyData& data, const
   if (data.has_vertices) return {make_error("mesh.bad-header", fmt::format("{}: two elements \"vertex\"", context.name))};
   data.has_vertices = true;
   data.vertex_count = element.count;
-  if (element.count > 3 * context.options.max_triangles)
-    return {too_many(context.name, "vertices", element.count, 3 * context.options.max_triangles)};
   const auto has = single_slots(element);
   if (!has[kX] || !has[kY] || !has[kZ])
     return {make_error("mesh.bad-header", fmt::format("{}: the vertices have no x, y, z", context.name))};
@@ -97,8 +95,22 @@ Diagnostics check_vertex_element(const PlyElement& element, PlyData& data, const
   return {};
 }
 
+}  // namespace
+
+Diagnostics check_ply_size(const PlyHeader& header, const ReadContext& context) {
+  for (const auto& element : header.elements) {
+    const std::uint64_t most = context.options.max_triangles * (element.name == "vertex" ? 3 : 1);
+    if ((element.name == "vertex" || element.name == "face") && element.count > most)
+      return {too_many(context.name, element.name == "vertex" ? "vertices" : "faces", element.count, most)};
+  }
+  return {};
+}
+
+namespace {
+
 /// Compares what the header promises with the bytes that follow it.
 Diagnostics check_counts(const PlyHeader& header, std::uint64_t bytes_left, PlyData& data, const ReadContext& context) {
+  if (auto wrong = check_ply_size(header, context); !wrong.empty()) return wrong;
   std::uint64_t least = 0;
   for (const auto& element : header.elements) {
     std::uint64_t size = 0;
@@ -110,8 +122,6 @@ Diagnostics check_counts(const PlyHeader& header, std::uint64_t bytes_left, PlyD
       data.face_white = white_of_element(element);
       data.has_face_textures = single_slots(element)[kTexture];
     }
-    if (element.name == "face" && element.count > context.options.max_triangles)
-      return {too_many(context.name, "faces", element.count, context.options.max_triangles)};
     if (size > 0 && element.count > (bytes_left + 1) / size) least = bytes_left + 2;
     least += least > bytes_left ? 0 : size * element.count;
     if (least > bytes_left + 1) {  // the last word of a text may lack its blank

@@ -141,6 +141,15 @@ Result<PolygonSoup> read_text(std::string_view text, const ReadContext& context)
 
 }  // namespace
 
+Diagnostics check_stl_size(std::string_view beginning, std::uint64_t file_bytes, const ReadContext& context) {
+  std::uint32_t count = 0;
+  if (beginning.size() < kHeaderBytes) return {};
+  std::memcpy(&count, beginning.data() + kHeaderBytes - 4, 4);
+  const std::uint64_t expected = kHeaderBytes + std::uint64_t{kTriangleBytes} * count;
+  if (file_bytes != expected || count <= context.options.max_triangles) return {};
+  return {too_many(context.name, "triangles", count, context.options.max_triangles)};
+}
+
 Result<PolygonSoup> read_stl(std::string_view bytes, const ReadContext& context) {
   // Binary files may begin with "solid" too: the size decides, then the word.
   std::uint32_t count = 0;

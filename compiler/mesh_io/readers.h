@@ -16,6 +16,8 @@ namespace orbc::mesh_io {
 [[nodiscard]] Result<PolygonSoup> read_ply(std::string_view bytes, const ReadContext& context);
 /// Geomview's OFF, as text.
 [[nodiscard]] Result<PolygonSoup> read_off(std::string_view bytes, const ReadContext& context);
+/// Refuses a binary STL that its first bytes promise to be too large. In: these bytes; the size of the whole file.
+[[nodiscard]] Diagnostics check_stl_size(std::string_view beginning, std::uint64_t file_bytes, const ReadContext& context);
 /// STL, text or binary. Corners at the same position share a vertex.
 [[nodiscard]] Result<PolygonSoup> read_stl(std::string_view bytes, const ReadContext& context);
 

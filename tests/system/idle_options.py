@@ -48,7 +48,6 @@ TABLE = [
     ('--tolerance', '0.1', TRACED + SVG, TRACED + SVG),
     ('--max-triangles', '500', TRACED + SVG, TRACED + SVG),
     ('--no-lod', None, TRACED + SVG, TRACED + SVG),
-    ('--max-memory', '1GiB', TRACED + SVG, TRACED + SVG),
     ('--no-highlights', None, TRACED + SVG, EVERYWHERE),
     ('--max-atlas', '8192', TRACED + SVG, TRACED + SVG),
     ('--pass', 'depth', POV + GLTF, POV + GLTF),
@@ -61,7 +60,7 @@ TABLE = [
 ]
 SEEN_IN_PICTURES = {'--pass', '--atlas', '--samples'}
 # Neither what is made, nor where: how the program runs, what it prints, which command it is.
-ABOUT_RUNNING = {'--help', '--quiet', '--verbose', '--json', '--threads', '--output', '--format', '--engine', '--plan', '--set', '--nodes-per-object'}
+ABOUT_RUNNING = {'--help', '--quiet', '--verbose', '--json', '--threads', '--max-memory', '--output', '--format', '--engine', '--plan', '--set', '--nodes-per-object'}
 VERIFY_ALONE = {'--blender', '--within', '--threshold', '--off-edge', '--difference', '--keep'}
 
 

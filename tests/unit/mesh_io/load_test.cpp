@@ -179,8 +179,8 @@ TEST_CASE("broken files are told by name and fault", "[mesh_io]") {
   refused(Format::ply, "plx\n", "mesh.bad-header");
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\n" + xyz + "end_header\n0 0 0\n", "mesh.too-big", "4000000000");
-  refused(Format::ply, "ply\nformat binary_little_endian 1.0\nelement vertex 40000000\n" + xyz + "end_header\n0 0 0\n", "mesh.truncated",
-          "promises 40000000");
+  refused(Format::ply, "ply\nformat binary_little_endian 1.0\nelement vertex 20000000\n" + xyz + "end_header\n0 0 0\n", "mesh.truncated",
+          "promises 20000000");
   refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 99999999999999999999\n" + xyz + "end_header\n", "mesh.bad-header");
   refused(Format::ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n", "mesh.bad-header", "no x, y, z");
   refused(Format::ply,
