@@ -12,7 +12,8 @@ void add_common(CLI::App& command, Common& common) {
   command.add_option("--threads", common.threads, "Threads to work with (0 = all cores); the result is the same for any number")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
-  command.add_option("--max-memory", common.max_memory, "Stop rather than take more memory than this; renderers that are started take theirs")
+  command
+      .add_option("--max-memory", common.max_memory, "Stop rather than take more memory than this; renderers that are started take theirs")
       ->capture_default_str()
       ->type_name("SIZE");
 }

@@ -89,6 +89,8 @@ with folder() as where:
         done.append(within(limit, ['check', painted, '-q'], 'checking them'))
         done.append(within(limit, ['render', mesh, '-o', where / 'x.png', '-q', '--size', '1600x1200', '--samples', '1', '--max-bounces', '1'], 'a larger picture'))
     check(0 in done and len(set(done)) > 1, 'some are done, some are refused')
+    code, told, *_ = spent(['trace', mesh, '-o', where / 'x.png', '--json', '--max-memory', '24MiB'])
+    check(code == 3 and '--max-memory is reached' in told or not COUNTED, f'cli.max-memory is told: {code} {told[-200:]}')
 
     # Limits are understood everywhere, before anything is read.
     for words in (['info', '*237'], ['enumerate'], ['check', octant], ['render', octant, '-o', where / 'x.png'], ['verify', octant], ['explain'], ['svg', '*237']):

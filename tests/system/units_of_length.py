@@ -74,9 +74,11 @@ with folder() as where:
             scene.write_text(room(s, lamp, more))
             _, tracing = measured(['trace', scene, '-o', where / 'x.png', '-q', '--samples', '1', '--threads', '1'])
             traced[s] = picture(where / 'x.png')
+            for old in where.glob('x-*.png'):
+                old.unlink()
             done, compiling = measured(['compile', scene, '-o', where / 'x.pov', '--json', '-q', '--threads', '1'])
             reports[s] = json.loads(done.stdout)
-            atlas = picture(where / 'x-atlas.png')
+            atlas = picture(next(where.glob('x-*.png')))
             texels[s] = atlas.shape[0] * atlas.shape[1]
             seconds[s] = tracing + compiling
             if povray:

@@ -269,8 +269,8 @@ Row face_colors() {
             }},
            {"read (Magics, VisCAM), sRGB",
             [] {
-              // VisCAM: bit 15 says that there is a colour, blue in the lowest bits. Magics: a colour of the whole in the header, bit 15 that
-              // it holds, red in the lowest bits.
+              // VisCAM: bit 15 says that there is a colour, blue in the lowest bits. Magics: a colour of the whole in the header, bit 15
+              // says that it holds, red in the lowest bits.
               std::string magics = stl_with_color(31);
               magics.replace(0, 10, "COLOR=\xff\xff\xff\xff");
               return is_first_color(must_read("p.stl", stl_with_color(0x8000 | 31u << 10)), 1, 0, 0) &&
