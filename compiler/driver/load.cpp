@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -40,19 +41,23 @@ Result<scene::ReadResult> read(const std::string& path, const scene::Overrides& 
 
 void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-/// place lamps → eye. In: what has been told so far.
-Result<LoadedScene> light_and_look(scene::Scene scene, place::Interior interior, Diagnostics notes) {
-  auto lamps = light::prepare_lamps(scene, interior, light::light_options(scene));
-  if (!lamps) return located(lamps.error(), scene.span);
-  append(notes, located(lamps->warnings, scene.span));
+/// room → furnish → place lamps → eye.
+Result<LoadedScene> furnish_and_light(scene::Scene scene, const mesh::AssetSource& assets) {
+  const auto room = room::realise(scene.orbifold, scene.room.shape, scene.allow_non_orbifold);
+  if (!room) return located(room.error(), scene.room.shape.span.source ? scene.room.shape.span : scene.span);
+  auto furnished = place::furnish(scene, *room, assets);
+  if (!furnished) return located(furnished.error(), scene.span);
   LoadedScene loaded;
-  loaded.interior = std::make_shared<const place::Interior>(light::with_lamp_bodies(scene, lamps->lamps, std::move(interior)));
+  loaded.notes = located(std::move(furnished->warnings), scene.span);
+  auto lamps = light::prepare_lamps(scene, furnished->interior, light::light_options(scene));
+  if (!lamps) return located(lamps.error(), scene.span);
+  append(loaded.notes, located(lamps->warnings, scene.span));
+  loaded.interior = std::make_shared<const place::Interior>(light::with_lamp_bodies(scene, lamps->lamps, std::move(furnished->interior)));
   loaded.lamps = std::make_shared<const light::LampSet>(std::move(*lamps));
   const auto eye = place::make_camera(scene, *loaded.interior);
   if (!eye) return located(eye.error(), scene.camera.span.source ? scene.camera.span : scene.span);
   loaded.eye = *eye;
   loaded.scene = std::move(scene);
-  loaded.notes = std::move(notes);
   return loaded;
 }
 
@@ -63,31 +68,28 @@ Result<LoadedScene> load(const std::string& path, const scene::Overrides& overri
   if (!read_in) return read_in.error();
   std::vector<std::string> files{path};
   mesh_io::LoadOptions options = mesh_io::bounds_within(max_memory);
-  options.on_read = [&files](const std::string& file) { files.push_back(file); };
+  options.on_read = [&files](const std::string& file) {
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  };
   auto loaded = load(*std::move(read_in), mesh_io::assets_from_files(options));
   if (loaded) loaded->files = std::move(files);
   return loaded;
 }
 
 Result<LoadedScene> load(scene::ReadResult read, const mesh::AssetSource& assets) {
-  const scene::Scene& scene = read.scene;
-  const auto room = room::realise(scene.orbifold, scene.room.shape, scene.allow_non_orbifold);
-  if (!room) return located(room.error(), scene.room.shape.span.source ? scene.room.shape.span : scene.span);
-  auto furnished = place::furnish(scene, *room, assets);
-  if (!furnished) return located(furnished.error(), scene.span);
-  append(read.notes, located(std::move(furnished->warnings), scene.span));
-  const double unit = unit_of_length(scene, room->space);
-  if (unit == 1) return light_and_look(std::move(read.scene), std::move(furnished->interior), std::move(read.notes));
-  auto loaded = light_and_look(scaled(scene, unit), scaled(std::move(furnished->interior), unit), std::move(read.notes));
-  if (loaded) {
-    loaded->unit_of_length = unit;
-    return loaded;
+  const double unit = unit_of_length(read.scene);
+  auto loaded = furnish_and_light(in_compiled_unit(read.scene, unit), assets);
+  if (unit != 1 && (!loaded || !loaded->notes.empty())) {
+    // Messages name lengths in the author's unit.
+    const auto in_author_unit = furnish_and_light(read.scene, assets);
+    if (!loaded) return in_author_unit ? loaded.error() : in_author_unit.error();
+    if (in_author_unit) loaded->notes = in_author_unit->notes;
   }
-  // Errors are told in the author's unit.
-  auto again = place::furnish(scene, *room, assets);
-  if (!again) return loaded.error();
-  const auto told = light_and_look(scene, std::move(again->interior), {});
-  return told ? loaded.error() : told.error();
+  if (!loaded) return loaded;
+  loaded->unit_of_length = unit;
+  append(read.notes, loaded->notes);
+  loaded->notes = std::move(read.notes);
+  return loaded;
 }
 
 }  // namespace orbc::driver

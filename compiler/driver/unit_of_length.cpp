@@ -5,6 +5,9 @@
 #include <utility>
 #include <variant>
 
+#include "compiler/notation/classify.h"
+#include "compiler/room/realise.h"
+
 namespace orbc::driver {
 namespace {
 
@@ -22,8 +25,28 @@ geometry::Isometry scaled(geometry::Isometry map, double factor) {
 
 // ---- the scene -----------------------------------------------------------------------------------------------------------------
 
-scene::Place scaled(scene::Place place, double factor) {
-  std::visit(Overload{[](scene::AtCentre&) {}, [&](scene::AtDisk& at) { at.z *= factor; }, [&](scene::AtPolar& at) { at.r *= factor; },
+/// A number to 40 binary digits, so that scenes which differ only by their unit have the same lengths to the last bit. A tie, such as two
+/// edges of equal length, is then broken in the same way in every unit.
+/// Source: Veltkamp's splitting; Dekker 1971, A floating-point technique for extending the available precision, §5.
+double to_40_digits(double x) {
+  constexpr double kSplit = (1 << 13) + 1;
+  const double large = kSplit * x;
+  return large - (large - x);
+}
+
+/// What lengths of a scene are multiplied by. The products are rounded.
+struct Factor {
+  double value = 1;
+};
+double operator*(Factor factor, double length) { return to_40_digits(factor.value * length); }
+double& operator*=(double& length, Factor factor) { return length = factor * length; }
+
+scene::Place scaled(scene::Place place, Factor factor) {
+  std::visit(Overload{[](scene::AtCentre&) {},
+                      [&](scene::AtDisk& at) {
+                        at.z = {factor * at.z.real(), factor * at.z.imag()};
+                      },
+                      [&](scene::AtPolar& at) { at.r *= factor; },
                       [&](scene::AtXy& at) {
                         at = {factor * at.x, factor * at.y};
                       },
@@ -36,26 +59,25 @@ scene::Place scaled(scene::Place place, double factor) {
   return place;
 }
 
-scene::Material scaled(scene::Material material, double factor) {
+scene::Material scaled(scene::Material material, Factor factor) {
   material.cell *= factor;
   return material;
 }
 
-scene::Mirror scaled(scene::Mirror mirror, double factor) {
+scene::Mirror scaled(scene::Mirror mirror, Factor factor) {
   for (auto* range : {&mirror.arc, &mirror.height})
     if (*range) *range = {factor * (**range)[0], factor * (**range)[1]};
   if (mirror.frame) mirror.frame = scene::Frame{factor * mirror.frame->width, scaled(mirror.frame->material, factor)};
   return mirror;
 }
 
-scene::Surface scaled(scene::Surface surface, double factor) {
+scene::Surface scaled(scene::Surface surface, Factor factor) {
   surface.material = scaled(std::move(surface.material), factor);
   if (surface.mirror) surface.mirror = scaled(std::move(*surface.mirror), factor);
   return surface;
 }
 
-scene::RoomSpec scaled(scene::RoomSpec room, double factor) {
-  room.shape.scale *= factor;
+scene::RoomSpec scaled(scene::RoomSpec room, Factor factor) {
   room.height *= factor;
   room.floor = scaled(std::move(room.floor), factor);
   room.ceiling = scaled(std::move(room.ceiling), factor);
@@ -67,7 +89,7 @@ scene::RoomSpec scaled(scene::RoomSpec room, double factor) {
 }
 
 /// Meshes without a size have the author's unit: their factors grow instead.
-scene::Object scaled(scene::Object object, double factor) {
+scene::Object scaled(scene::Object object, Factor factor) {
   const auto grow = [&](auto&... lengths) { ((lengths *= factor), ...); };
   std::visit(Overload{[&](scene::MeshFile&) {
                         if (!object.size) grow(object.scale[0], object.scale[1], object.scale[2]);
@@ -87,18 +109,16 @@ scene::Object scaled(scene::Object object, double factor) {
   return object;
 }
 
-double power_factor(scene::Falloff falloff, double factor) { return falloff == scene::Falloff::none ? 1 : factor * factor; }
-
-scene::Lamp scaled(scene::Lamp lamp, double factor) {
+scene::Lamp scaled(scene::Lamp lamp, Factor factor) {
   lamp.place = scaled(std::move(lamp.place), factor);
   if (lamp.to) lamp.to = scaled(std::move(*lamp.to), factor);
   lamp.radius *= factor;
   lamp.size = {factor * lamp.size[0], factor * lamp.size[1]};
-  lamp.power *= power_factor(lamp.falloff, factor);
+  if (lamp.falloff != scene::Falloff::none) lamp.power = to_40_digits(factor.value * factor.value * lamp.power);
   return lamp;
 }
 
-scene::Camera scaled(scene::Camera camera, double factor) {
+scene::Camera scaled(scene::Camera camera, Factor factor) {
   camera.place = scaled(std::move(camera.place), factor);
   if (auto* at = std::get_if<scene::Place>(&camera.look_at.value)) *at = scaled(std::move(*at), factor);
   if (!camera.lens) return camera;
@@ -134,31 +154,22 @@ place::Camera scaled(place::Camera eye, double factor) {
 
 }  // namespace
 
-double unit_of_length(const scene::Scene& scene, geometry::Space space) {
-  return space == geometry::Space::euclidean ? kCompiledScale / scene.room.shape.scale : 1;
+double unit_of_length(const scene::Scene& scene) {
+  const auto space = notation::classify(scene.orbifold);
+  const double scale = scene.room.shape.scale;
+  const bool refused = !(scale >= room::kMinScale && scale <= room::kMaxScale);  // `realise` says so
+  return space && *space == geometry::Space::euclidean && !refused ? kCompiledScale / scale : 1;
 }
 
-scene::Scene scaled(scene::Scene scene, double factor) {
+scene::Scene in_compiled_unit(scene::Scene scene, double unit) {
+  if (unit == 1) return scene;
+  const Factor factor{unit};
   scene.room = scaled(std::move(scene.room), factor);
+  scene.room.shape.scale = kCompiledScale;
   for (scene::Object& object : scene.objects) object = scaled(std::move(object), factor);
   for (scene::Lamp& lamp : scene.lamps) lamp = scaled(std::move(lamp), factor);
   scene.camera = scaled(std::move(scene.camera), factor);
   return scene;
-}
-
-place::Interior scaled(place::Interior interior, double factor) {
-  interior.polygon = scaled(std::move(interior.polygon), factor);
-  interior.height *= factor;
-  for (place::PlacedMesh& part : interior.parts) {
-    for (geometry::Point& p : part.floor) p = scaled(p, factor);
-    for (double& z : part.z) z *= factor;
-    for (geometry::Vector3& p : part.pattern_position) p = factor * p;
-  }
-  for (place::PlacedMirror& mirror : interior.mirrors)
-    for (double* range : {mirror.span, mirror.height})
-      for (int i = 0; i < 2; ++i) range[i] *= factor;
-  for (place::SurfaceStyle& style : interior.styles) style.material = scaled(std::move(style.material), factor);
-  return interior;
 }
 
 Product in_author_unit(Product product, double unit) {

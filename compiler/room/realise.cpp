@@ -18,7 +18,6 @@ using geometry::Space;
 using scene::Shape;
 using scene::ShapeKind;
 
-constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
 
 bool all_right_angles(const std::vector<Rational>& orders) {
   for (const Rational& k : orders)

@@ -5,6 +5,8 @@
 
 namespace orbc::room {
 
+inline constexpr double kMinScale = 1e-9, kMaxScale = 1e9;  ///< bounds of `scale`, `aspect` and `strip_length`
+
 /// Realises the polygon of an orbifold in its space and certifies it.
 /// In:          corners in the author's order; real-valued ones only with `allow_non_orbifold`.
 /// Makes:       a room whose angles are π/k and whose sides are those of the shape to 1e-12, for N ≤ 40 and more; every stored double is
