@@ -181,7 +181,7 @@ with folder() as name:
     if b'__asan_init' not in ORBC.read_bytes():   # the address sanitizer's shadow memory needs terabytes of addresses
         done = run(['bash', '-c', f'ulimit -v 150000; exec {ORBC} compile {OCTANT} --max-bounces 40 --no-lod -o {where}/large.glb'])
         check(done.returncode == 3 and sorted(os.listdir(where)) == before, f'too little memory is told: {done.stderr.decode()[:100]}')
-    done = orbc('compile', OCTANT, '--max-memory', '64MiB', '--max-bounces', '40', '--no-lod', '-o', where / 'x.glb')
+    done = orbc('compile', OCTANT, '--max-memory', '128MiB', '--max-bounces', '40', '--no-lod', '-o', where / 'x.glb')
     check(done.returncode == 1 and b'max_bounces' in done.stderr, f'the planner refuses, and names what fits: {done.stderr.decode()[:200]}')
     done = run(['bash', '-c', f'{ORBC} compile {OCTANT} -f pov -o - | head -c 10 >/dev/null; exit ${{PIPESTATUS[0]}}'])
     check(done.returncode == 3, 'a closed pipe is an error')
