@@ -30,6 +30,11 @@ foreach(shipped scripts/povray-pipe scripts/render_blender.py scripts/drawing.py
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${shipped} ${ORBC_SHARE}/orbc/${name} SYMBOLIC)
 endforeach()
 
+# The designer's page, which scripts/web builds; without it `orbc design` says so.
+if(EXISTS ${ORBC_SHARE}/orbc/designer.html)
+  install(FILES ${ORBC_SHARE}/orbc/designer.html DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
+endif()
+
 # Man page and completions are printed by the program itself, from the same table as its --help.
 if(NOT ORBC_SANITIZE)
   set(manual ${ORBC_SHARE}/manual/orbc.1.gz ${ORBC_SHARE}/manual/orbc.bash ${ORBC_SHARE}/manual/orbc.zsh ${ORBC_SHARE}/manual/orbc.fish)

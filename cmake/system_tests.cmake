@@ -49,6 +49,7 @@ endif()
 # Which copies there are, word by word, in the golden texts of tests/golden.
 add_test(NAME golden COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/scripts/update_golden --check --programs $<TARGET_FILE_DIR:orbc>)
 set_tests_properties(golden PROPERTIES LABELS fast TIMEOUT 600)
+orbc_system_test(system_designer designer.py 1800 render)
 orbc_system_test(system_golden_files golden_files.py 600 fast)
 orbc_system_test(system_endings endings.py 900 render)
 orbc_system_test(system_output_names output_names.py 900 render)

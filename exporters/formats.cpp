@@ -49,6 +49,7 @@ const std::vector<ExportFormat>& export_formats() {
        .write = write_gltf_with_files,
        .estimated_bytes = gltf::bytes_of},
       {.name = "svg"},
+      {.name = "html", .is_page = true},
   };
   return kFormats;
 }

@@ -103,6 +103,11 @@ struct VerifyArguments {
   std::string difference;           ///< a picture of the differences
   std::string keep;                 ///< stem for both pictures
 };
+struct DesignArguments {
+  std::string scene;                ///< empty = the empty page
+  std::string output;               ///< empty = a file in the folder for temporary files
+  bool open = true;                 ///< in the browser
+};
 struct ExplainArguments {
   std::string code;                 ///< empty = all
 };
@@ -120,6 +125,7 @@ int draw_svg(const SvgArguments& arguments, const Common& common);
 int new_scene(const NewArguments& arguments, const Common& common);
 int check(const CheckArguments& arguments, const Common& common);
 int compile(const CompileArguments& arguments, const Common& common);
+int design(const DesignArguments& arguments, const Common& common);
 int render(const RenderArguments& arguments, const Common& common);
 int verify(const VerifyArguments& arguments, const Common& common);
 /// 0 they agree, 1 they differ, 2 usage, 3 one of them cannot be read.

@@ -8,6 +8,7 @@
 #include "compiler/cli/effects.h"
 #include "compiler/cli/export.h"
 #include "compiler/cli/output.h"
+#include "compiler/cli/page.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
 #include "compiler/cli/streams.h"
@@ -170,6 +171,7 @@ int compile(const CompileArguments& a, const Common& common) {
   const exporters::ExportFormat& format = a.plan ? *exporters::find_export_format("glb") : format_of(a);
   refuse_what_cannot_be(a, format, common);
   check_nodes(a, format);
+  if (format.is_page) return write_page(a, common);
   if (!a.plan) check_outputs({a.output, a.report});
   auto loaded = driver::load(a.scene.scene, overrides_of(a.scene), parse_bytes(common.max_memory));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;

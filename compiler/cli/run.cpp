@@ -30,6 +30,7 @@ void define_commands(Program& program) {
   define_new(program);
   define_check(program);
   define_compile(program);
+  define_design(program);
   define_render(program);
   define_trace(program);
   define_verify(program);

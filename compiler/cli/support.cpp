@@ -88,7 +88,7 @@ void append_set(const std::vector<std::string>& set, scene::Overrides& overrides
   }
 }
 
-std::string shipped_script(const std::string& name) {
+std::optional<std::string> shipped_file(const std::string& name) {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
   // Installed as the build said, or beside a build folder's bin/: share/orbc stands in both.
@@ -96,6 +96,11 @@ std::string shipped_script(const std::string& name) {
     const std::filesystem::path found = (program.parent_path() / data / name).lexically_normal();
     if (std::filesystem::exists(found, ignored)) return found.string();
   }
+  return std::nullopt;
+}
+
+std::string shipped_script(const std::string& name) {
+  if (auto found = shipped_file(name)) return *found;
   throw std::runtime_error("cannot find " + name + ", which belongs to orbc; was it moved without its share/orbc folder?");
 }
 

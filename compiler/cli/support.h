@@ -42,6 +42,8 @@ void append_set(const std::vector<std::string>& set, scene::Overrides& overrides
 /// beside the scene where there is none.
 [[nodiscard]] std::string schema_line();
 
+/// A file that ships with orbc: in share/orbc of the installation, or of the build folder; nothing if it is not there.
+[[nodiscard]] std::optional<std::string> shipped_file(const std::string& name);
 /// A script that ships with orbc (povray-pipe, render_blender.py): beside the sources, or in share/orbc of the installation.
 [[nodiscard]] std::string shipped_script(const std::string& name);
 

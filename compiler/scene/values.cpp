@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace orbc::scene {
@@ -22,10 +23,14 @@ std::string shortened(std::string_view text) {
 
 std::string described(const Node& node) {
   switch (node.kind) {
-    case NodeKind::null: return "nothing";
-    case NodeKind::list: return "a list";
-    case NodeKind::map: return "a map";
-    case NodeKind::scalar: break;
+    case NodeKind::null:
+      return "nothing";
+    case NodeKind::list:
+      return "a list";
+    case NodeKind::map:
+      return "a map";
+    case NodeKind::scalar:
+      break;
   }
   if (node.text.find('\n') != std::string::npos) return "a text of several lines";
   const std::string shown = fmt::format("\"{}\"", shortened(node.text));
@@ -50,6 +55,12 @@ std::optional<double> parse_number(std::string_view text) {
   const bool digit_first = unsigned_text[0] >= '0' && unsigned_text[0] <= '9';
   if (!digit_first && !(unsigned_text[0] == '.' && unsigned_text.size() > 1 && unsigned_text[1] >= '0' && unsigned_text[1] <= '9'))
     return std::nullopt;
+#ifdef __EMSCRIPTEN__  // its libc++ has no from_chars for doubles; its strtod rounds alike and knows one locale
+  const std::string terminated(unsigned_text);
+  char* end = nullptr;
+  const double value = std::strtod(terminated.c_str(), &end);
+  if (end != terminated.c_str() + terminated.size()) return std::nullopt;
+#else
   double value = 0;
   const auto [end, error] = std::from_chars(unsigned_text.data(), unsigned_text.data() + unsigned_text.size(), value);
   if (end != unsigned_text.data() + unsigned_text.size()) return std::nullopt;
@@ -58,6 +69,7 @@ std::optional<double> parse_number(std::string_view text) {
     const bool tiny = e != std::string_view::npos ? unsigned_text[e + 1] == '-' : unsigned_text[0] == '.' || unsigned_text[0] == '0';
     return tiny ? 0.0 : sign * std::numeric_limits<double>::infinity();
   }
+#endif
   return sign * value;
 }
 

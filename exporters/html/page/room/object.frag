@@ -1,0 +1,103 @@
+in vec3 albedo;
+in vec3 at;
+in vec3 arriving;
+flat in vec3 share;
+in vec4 place;
+in vec4 facing;
+flat in mat3 eye_from_copy;
+#if K > 0
+in vec2 reach;
+#endif
+#ifdef CODED
+flat in uvec4 word_of_copy;
+uniform highp usampler2D path_code;
+#endif
+uniform int style_pattern;    // 0 plain, 2 marble, 3 wood, 4 granite, 5 texture
+uniform int style_kind;       // 0 matte, 1 glossy, 2 metal, 3 mirror, 4 glass, 5 emissive
+uniform vec3 style_first, style_second;
+uniform float style_cell, style_cutoff, style_emission, style_index;
+uniform float eye_z;
+uniform sampler2D picture;
+uniform vec3 glow;            // added while the part is selected
+layout(location = 0) out vec4 pixel;
+
+vec3 surface_albedo() {
+  if (style_pattern == 5) {
+    vec4 texel = texture(picture, at.xy);
+    if (texel.a < style_cutoff) discard;
+    return albedo * texel.rgb;
+  }
+  if (style_pattern >= 2) return mix(style_first, style_second, solid(style_pattern, at / style_cell));
+  return albedo;
+}
+
+float product(vec4 a, vec4 b) { return a.y * b.y + a.z * b.z + float(K) * a.x * b.x + a.w * b.w; }
+
+// The direction from the point to the eye, in room coordinates of the copy: (w, x, y, z), of length 1.
+vec4 to_eye(vec4 p) {
+  mat3 m = eye_from_copy;
+#if K == 0
+  vec2 eye = -vec2(dot(vec2(m[1].y, m[2].y), vec2(m[1].x, m[2].x)), dot(vec2(m[1].z, m[2].z), vec2(m[1].x, m[2].x)));
+  vec3 d = vec3(0.0, eye - p.yz);
+  float length_there = length(d.yz);
+#else
+  vec3 eye = vec3(m[0].x, float(K) * m[0].y, float(K) * m[0].z);
+  float c = eye.x * p.x + float(K) * dot(eye.yz, p.yz);
+  vec3 d = eye - c * p.xyz;
+  float n = sqrt(max(1e-12, dot(d.yz, d.yz) + float(K) * d.x * d.x));
+#if K > 0
+  float length_there = atan(n, c);
+#else
+  float length_there = asinh(n);
+#endif
+  d *= length_there / n;
+#endif
+  vec4 v = vec4(d, eye_z - p.w);
+  return v / max(1e-6, sqrt(length_there * length_there + v.w * v.w));
+}
+
+vec3 room_in(vec4 p, vec4 direction) {
+  float flat_length = sqrt(max(1e-12, dot(direction.yz, direction.yz) + float(K) * direction.x * direction.x));
+  uvec2 code;
+  return march(p.xyz, direction.xyz / flat_length, p.w, direction.w / flat_length, min(bounces, REFLECTED), vec3(1.0), code);
+}
+
+void main() {
+#ifdef CODED
+  uvec2 code = texelFetch(path_code, ivec2(gl_FragCoord.xy), 0).xy;
+  if ((code.x & word_of_copy.z) != word_of_copy.x || (code.y & word_of_copy.w) != word_of_copy.y) discard;
+#endif
+  vec3 color = surface_albedo(), out_light;
+  if (style_kind == 5) out_light = style_emission * color;
+  else if (style_kind == 3 || style_kind == 4 || (style_kind == 2 && lit == 1)) {
+    vec4 p = place;
+#if K < 0
+    p.xyz *= inversesqrt(max(1e-6, p.x * p.x - dot(p.yz, p.yz)));
+#elif K > 0
+    p.xyz = normalize(p.xyz);
+#endif
+    vec4 normal = facing;
+#if K != 0
+    normal.xyz -= (normal.x * p.x + float(K) * dot(normal.yz, p.yz)) * p.xyz;
+#else
+    normal.x = 0.0;
+#endif
+    normal /= sqrt(max(1e-9, product(normal, normal)));
+    vec4 view_direction = to_eye(p);
+    float cosine = clamp(product(normal, view_direction), 0.0, 1.0);
+    float fresnel = 0.04 + 0.96 * pow(1.0 - cosine, 5.0);
+    vec4 reflected = 2.0 * cosine * normal - view_direction;
+    if (style_kind == 4) {
+      // A ball of glass bends a ray towards its axis twice, each time by the angle of incidence less that of refraction.
+      float incidence = acos(cosine), refraction = asin(sin(incidence) / style_index), angle = 2.0 * refraction - incidence;
+      vec4 across = (cosine * normal - view_direction) / max(1e-4, sin(incidence));
+      vec4 through = sin(angle) * across - cos(angle) * normal;
+      vec3 behind = room_in(p, through);
+      out_light = fresnel * room_in(p, reflected) + (1.0 - fresnel) * color * behind;
+    } else {
+      vec3 tint = style_kind == 3 ? color : color + (1.0 - color) * pow(1.0 - cosine, 5.0);
+      out_light = tint * room_in(p, reflected);
+    }
+  } else out_light = lit == 1 ? color * arriving : color;
+  pixel = vec4(srgb(min(exposure * out_light, 1.0) * share + glow), 1.0);
+}

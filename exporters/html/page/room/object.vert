@@ -1,0 +1,60 @@
+layout(location = 0) in vec4 position;     // w, x, y, z
+layout(location = 1) in vec4 normal;
+layout(location = 2) in vec3 color;
+layout(location = 3) in vec3 coordinate;   // of solid patterns; of textures u, v
+layout(location = 4) in vec3 light;        // irradiance divided by π
+layout(location = 5) in vec3 row_w;        // eye from copy, row by row
+layout(location = 6) in vec3 row_x;
+layout(location = 7) in vec3 row_y;
+layout(location = 8) in vec4 weight;       // of the mirrors on the path; w: the sheet of the sphere
+#ifdef CODED
+layout(location = 9) in uvec4 word;        // code, mask
+flat out uvec4 word_of_copy;
+#endif
+uniform float eye_z;
+uniform vec3 forward, right, up_vector;
+uniform vec2 half_size;
+uniform vec4 view;
+uniform mat3 moved;        // where the part is while it is dragged: room from its old place
+uniform float lifted;
+out vec3 albedo;
+out vec3 at;
+out vec3 arriving;
+flat out vec3 share;
+out vec4 place;            // the point in room coordinates
+out vec4 facing;           // the normal in room coordinates
+flat out mat3 eye_from_copy;
+#if K > 0
+out vec2 reach;            // length on the floor, and that which the direction alone gives
+#endif
+void main() {
+  vec3 p = moved * position.xyz;
+  vec3 e = vec3(dot(row_w, p), dot(row_x, p), dot(row_y, p));
+  float rho = length(e.yz);
+  float r;
+#if K > 0
+  r = atan(rho, e.x);
+  float sheet = weight.w;
+  float far = mod(sheet, 2.0) < 0.5 ? sheet * 3.14159265 + r : -((sheet + 1.0) * 3.14159265 - r);
+  reach = vec2(far < 0.0 ? -far : far, 0.0);
+  r = far;
+#elif K == 0
+  r = rho;
+#else
+  r = asinh(rho);
+#endif
+  vec3 q = vec3((rho > 1e-6 ? r / rho : 1.0) * e.yz, position.w + lifted - eye_z);
+  float depth = dot(q, forward);
+  vec2 screen = vec2(dot(q, right), dot(q, up_vector)) / half_size;
+  gl_Position = vec4(screen + view.zw * depth, (FAR + NEAR) / (FAR - NEAR) * depth - 2.0 * FAR * NEAR / (FAR - NEAR), depth);
+  albedo = color;
+  at = coordinate;
+  arriving = light;
+  share = weight.rgb;
+  place = vec4(p, position.w + lifted);
+  facing = vec4(moved * normal.xyz, normal.w);
+  eye_from_copy = mat3(row_w, row_x, row_y);
+#ifdef CODED
+  word_of_copy = word;
+#endif
+}
