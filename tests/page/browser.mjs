@@ -25,8 +25,11 @@ export async function open(chrome, file, { width = 800, height = 600, touch = fa
 
 export const ready = (page) => page.waitForSelector('html[data-ready="1"]', { state: 'attached' });
 export const app = (page, expression) => page.evaluate(`(() => { const { app, walk } = orbc; return ${expression}; })()`);
-/** Waits until an expression of the page is true. */
-export const until = (page, expression) => page.waitForFunction(`(() => { const { app, walk } = orbc; return ${expression}; })()`, undefined, { polling: 100 });
+/** Waits until an expression of the page is true. (Playwright's own way would need eval, which the page's policy forbids.) */
+export async function until(page, expression, seconds = 240) {
+  for (const end = Date.now() + 1000 * seconds; Date.now() < end; await page.waitForTimeout(100)) if (await app(page, expression)) return;
+  throw new Error(`never true: ${expression}`);
+}
 
 let failed = 0;
 export function check(fine, what) {

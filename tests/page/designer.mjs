@@ -33,7 +33,7 @@ const text = (page) => app(page, 'app.text.value');
   await page.keyboard.press('ArrowUp');
   await until(page, "app.scene.value.orbifold.notation === '*32222'");
   check((await text(page)) === before.replace('*22222', '*32222'), 'one step of a corner changes the notation in the text and nothing else');
-  check((await page.textContent('.sum strong')) === '−5/12', 'the sum follows');
+  check((await page.textContent('.sum strong')) === '−⅓', 'the sum follows');
   await page.keyboard.press('Control+z');
   await until(page, "app.scene.value.orbifold.notation === '*22222'");
   check((await text(page)) === before, 'one undo takes it back, comments and all');

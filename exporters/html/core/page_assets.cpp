@@ -25,7 +25,9 @@ void put_list(Bytes& out, const std::vector<T>& list) {
   if (!list.empty()) std::memcpy(out.data() + at, list.data(), list.size() * sizeof(T));
 }
 
-void put_mark(Bytes& out, std::string_view mark) { out.insert(out.end(), mark.begin(), mark.end()); }
+void put_mark(Bytes& out, std::string_view mark) {
+  for (const char letter : mark) out.push_back(static_cast<std::uint8_t>(letter));
+}
 
 void put_picture(Bytes& out, const image::Image& picture) {
   put_mark(out, "OIMG");

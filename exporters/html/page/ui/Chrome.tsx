@@ -202,7 +202,7 @@ export function Empty() {
   if (!app.empty.value) return null;
   return (
     <div id="empty" role="dialog" aria-label="Start in a room">
-      <main>
+      <div class="sheet">
         <h1>Start in a room</h1>
         <p class="dim lead">Mirrors on every wall. What the corners add up to decides which space you stand in.</p>
         <div class="cards">
@@ -231,7 +231,7 @@ export function Empty() {
           </button>
           <span class="dim end">or drop a scene anywhere</span>
         </form>
-      </main>
+      </div>
     </div>
   );
 }
