@@ -78,7 +78,7 @@ endforeach()
 # Its folder core/ is what scripts/web compiles for the page; here it is tested.
 orbc_room(html FOLDER exporters/html USES driver PRIVATE ZLIB::ZLIB)
 list(APPEND ORBC_EXPORTERS html)
-orbc_room(formats FOLDER exporters USES ${ORBC_EXPORTERS})  # the table of them
+orbc_room(formats FLAT FOLDER exporters USES ${ORBC_EXPORTERS})  # the table of them
 orbc_room(verify USES scene image)
 orbc_room(diff USES scene files image_io)
 orbc_room(cli INTERNAL COLD USES driver verify diff formats ${ORBC_EXPORTERS} LIBRARIES CLI11::CLI11)

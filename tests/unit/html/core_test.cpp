@@ -113,7 +113,8 @@ TEST_CASE("a traced tile shows the floor below the eye", "[html]") {
 TEST_CASE("what is wrong with a notation is said of the notation alone", "[html]") {
   const Json good = json_of(orbc_notation("*237", 4, 0)), bad = json_of(orbc_notation("*23", 3, 0));
   CHECK(good.at("orbifold").at("chi") == "-1/84");
-  CHECK(bad.at("orbifold").at("space") == "none");
+  CHECK(bad.at("diagnostics").at(0).at("code") == "notation.bad-orbifold");
+  CHECK_FALSE(bad.contains("orbifold"));
 }
 
 TEST_CASE("a mesh comes back from the page as it went", "[html]") {

@@ -7,6 +7,8 @@ export interface Copy {
   word: number[];
   weight: [number, number, number];
   sheet: number;
+  /** Mirrors between the eye and the copy. */
+  met: number;
   reversing: boolean;
 }
 
@@ -49,7 +51,7 @@ export function groupCopies(scene: SceneReply, reply: CopiesReply): Copy[] {
     const weight: [number, number, number] = [...one];
     for (const wall of word) for (let c = 0; c < 3; ++c) weight[c]! *= shares[wall]![c]!;
     const coverFromRoom = [...reply.matrices.subarray(9 * i, 9 * i + 9)];
-    copies.push({ coverFromRoom, word, weight, sheet: 0, reversing: length % 2 === 1 });
+    copies.push({ coverFromRoom, word, weight, sheet: 0, met: length, reversing: length % 2 === 1 });
   });
   return scene.room.curvature > 0 && reply.whole ? withSheets(scene, copies) : copies;
 }
@@ -66,7 +68,7 @@ function withSheets(scene: SceneReply, copies: Copy[]): Copy[] {
       const met = sheet % 2 === 0 ? turns + copy.word.length : turns - copy.word.length;
       if (met > scene.cover.max_bounces || mirrors === 0) continue;
       const weight = share.map((x) => x ** met) as [number, number, number];
-      all.push({ ...copy, sheet, weight });
+      all.push({ ...copy, sheet, met, weight });
     }
   return all.length > 0 ? all : copies;
 }
@@ -97,7 +99,7 @@ export function beams(scene: SceneReply, eye: ArrayLike<number>, bounces: number
       const toEye = g.multiply(eyeFromRoom, beam.map);
       const sheets = k > 0 ? [0, 1] : [0];
       for (const sheet of sheets)
-        copies.push({ coverFromRoom: beam.map, word: beam.word, weight: beam.weight, sheet, reversing: beam.word.length % 2 === 1 });
+        copies.push({ coverFromRoom: beam.map, word: beam.word, weight: beam.weight, sheet, met: beam.word.length, reversing: beam.word.length % 2 === 1 });
       if (copies.length > most) return copies;
       if (depth === Math.min(16, bounces)) continue;
       room.walls.forEach((_, i) => {

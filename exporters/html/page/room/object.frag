@@ -18,6 +18,7 @@ uniform vec3 style_first, style_second;
 uniform float style_cell, style_cutoff, style_emission, style_index;
 uniform float eye_z;
 uniform sampler2D picture;
+uniform int in_room;          // 1: what lies outside of the room is not seen: half of a frame lies behind its mirror
 uniform vec3 glow;            // added while the part is selected
 layout(location = 0) out vec4 pixel;
 
@@ -67,6 +68,9 @@ void main() {
   uvec2 code = texelFetch(path_code, ivec2(gl_FragCoord.xy), 0).xy;
   if ((code.x & word_of_copy.z) != word_of_copy.x || (code.y & word_of_copy.w) != word_of_copy.y) discard;
 #endif
+  if (in_room == 1)
+    for (int i = 0; i < N; ++i)
+      if (dot(wall_line[i], place.xyz) < -1e-5) discard;
   vec3 color = surface_albedo(), out_light;
   if (style_kind == 5) out_light = style_emission * color;
   else if (style_kind == 3 || style_kind == 4 || (style_kind == 2 && lit == 1)) {

@@ -6,7 +6,7 @@ layout(location = 4) in vec3 light;        // irradiance divided by π
 layout(location = 5) in vec3 row_w;        // eye from copy, row by row
 layout(location = 6) in vec3 row_x;
 layout(location = 7) in vec3 row_y;
-layout(location = 8) in vec4 weight;       // of the mirrors on the path; w: the sheet of the sphere
+layout(location = 8) in vec4 weight;       // of the mirrors on the path; w: the sheet of the sphere, and 8 times the number of mirrors
 #ifdef CODED
 layout(location = 9) in uvec4 word;        // code, mask
 flat out uvec4 word_of_copy;
@@ -34,7 +34,7 @@ void main() {
   float r;
 #if K > 0
   r = atan(rho, e.x);
-  float sheet = weight.w;
+  float sheet = mod(weight.w, 8.0);
   float far = mod(sheet, 2.0) < 0.5 ? sheet * 3.14159265 + r : -((sheet + 1.0) * 3.14159265 - r);
   reach = vec2(far < 0.0 ? -far : far, 0.0);
   r = far;
@@ -47,6 +47,8 @@ void main() {
   float depth = dot(q, forward);
   vec2 screen = vec2(dot(q, right), dot(q, up_vector)) / half_size;
   gl_Position = vec4(screen + view.zw * depth, (FAR + NEAR) / (FAR - NEAR) * depth - 2.0 * FAR * NEAR / (FAR - NEAR), depth);
+  // A frame and its image meet in the mirror: the one behind fewer mirrors lies in front.
+  gl_Position.z += 4e-6 * floor(weight.w / 8.0) * depth;
   albedo = color;
   at = coordinate;
   arriving = light;

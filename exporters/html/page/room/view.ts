@@ -347,7 +347,7 @@ export class RoomView {
         const copy = copies[index]!;
         rows.set(maps[index]!, next * floatsPerInstance);
         rows.set(copy.weight, next * floatsPerInstance + 9);
-        rows[next * floatsPerInstance + 12] = copy.sheet;
+        rows[next * floatsPerInstance + 12] = copy.sheet + 8 * copy.met;
         if (key.coded) words.set(codeOf(copy.word), 4 * next);
         ++next;
       }
@@ -397,6 +397,7 @@ export class RoomView {
     const m = moved?.map ?? g.identity();
     gl.uniformMatrix3fv(p.at('moved'), false, [...g.column(m, 0), ...g.column(m, 1), ...g.column(m, 2)]);
     gl.uniform1f(p.at('lifted'), moved?.lifted ?? 0);
+    gl.uniform1i(p.at('in_room'), mesh.part.part < 0 ? 1 : 0);
     const glow = shot.selected !== undefined && shot.selected === mesh.part.part ? 0.02 : 0;
     gl.uniform3f(p.at('glow'), glow, glow * 1.6, glow * 2.6);
     gl.bindVertexArray(mesh.vao);
