@@ -2,6 +2,8 @@
 #include "compiler/cli/page.h"
 
 #include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -29,6 +31,19 @@ Result<std::string> empty_page() {
 /// The text of a scene: of every scene that was read, some span has it.
 std::string text_of(const scene::Scene& scene) { return scene.span.source ? scene.span.source->text : std::string(); }
 
+/// Has the desktop show a file, in a session of its own: the browser stays when this program has ended. Makes: false if there is no xdg-open.
+bool start_browser(const std::string& file) {
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  std::string program = "xdg-open", path = file;
+  char* argv[] = {program.data(), path.data(), nullptr};
+  pid_t child = 0;
+  const bool started = posix_spawnp(&child, program.c_str(), nullptr, &attributes, argv, environ) == 0;
+  posix_spawnattr_destroy(&attributes);
+  return started;
+}
+
 int write(const html::PageScene& scene, const std::string& output, const Diagnostics& notes, const Common& common) {
   const auto page = empty_page();
   if (!page) return print(page.error(), common), kMachine;
@@ -45,10 +60,12 @@ int write(const html::PageScene& scene, const std::string& output, const Diagnos
 }
 
 int write_scene(const SceneArguments& arguments, const std::string& output, const Common& common) {
+  check_outputs({output});
   const scene::Overrides overrides = overrides_of(arguments);
   if (!overrides.empty()) throw UsageError("the page holds the text of the scene: say in the scene what --set and its like would change");
   const auto loaded = driver::load(arguments.scene, overrides);
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
+  refuse_inputs({output}, loaded->files);
   print(loaded->notes, common);
   const auto scene = html::page_scene(text_of(loaded->scene), loaded->scene, loaded->interior->polygon, mesh_io::assets_from_files());
   if (!scene) return print(scene.error(), common), kSceneWrong;
@@ -67,8 +84,7 @@ int design(const DesignArguments& a, const Common& common) {
   scene.scene = a.scene;
   const int code = a.scene.empty() ? write({}, output, {}, common) : write_scene(scene, output, common);
   if (code != kDone || !a.open || output == "-") return code;
-  const int opened = run_program({"xdg-open", output}, true);
-  if (opened != 0 && !common.quiet) fmt::print(stderr, "no browser could be started; open {} in one\n", shown(output));
+  if (!start_browser(output) && !common.quiet) fmt::print(stderr, "no browser could be started; open {} in one\n", shown(output));
   return kDone;
 }
 
