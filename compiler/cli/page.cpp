@@ -31,7 +31,8 @@ Result<std::string> empty_page() {
 /// The text of a scene: of every scene that was read, some span has it.
 std::string text_of(const scene::Scene& scene) { return scene.span.source ? scene.span.source->text : std::string(); }
 
-/// Has the desktop show a file, in a session of its own: the browser stays when this program has ended. Makes: false if there is no xdg-open.
+/// Has the desktop show a file, in a session of its own: the browser stays when this program has ended.
+/// Makes: false if there is no xdg-open.
 bool start_browser(const std::string& file) {
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
