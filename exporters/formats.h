@@ -24,8 +24,8 @@ struct ExportFormat {
   bool holds_exr = false;            ///< its atlas may be an EXR
   bool lights_copies_apart = false;  ///< native lamps light their own copy alone
   bool has_nodes = false;
-  bool has_side_files = false;  ///< unless all is in a single file
-  bool is_page = false;         ///< the designer's page, which holds the scene itself and shows no product
+  bool has_side_files = false;       ///< unless all is in a single file
+  bool is_page = false;              ///< the designer's page, which holds the scene itself and shows no product
   /// Null for the formats that show no product: tilings and the page.
   std::vector<driver::File> (*write)(const driver::Product& product, const ExportOptions& options) = nullptr;
   /// About how many bytes that takes, without the atlas. Null where `write` is.

@@ -14,7 +14,7 @@ namespace orbc::cli {
 
 /// A command of the program and what runs it once the command line has been read; it returns the exit code.
 struct Command {
-  CLI::App* options = nullptr;  ///< owned by the program's CLI::App
+  CLI::App* options = nullptr;      ///< owned by the program's CLI::App
   std::function<int(const Common&)> run;
   /// What to say of more words than the command takes, such as a pattern that the shell has expanded; "" = nothing of its own
   std::function<std::string(const std::vector<std::string>& words)> extra_words{};
@@ -24,7 +24,7 @@ struct Command {
 struct Program {
   CLI::App& app;
   Common common;
-  std::vector<Command> commands;  ///< in the order of --help
+  std::vector<Command> commands;    ///< in the order of --help
 };
 
 // To add a command: its arguments and its function in commands.h, a function define_… in one of the files define_*.cpp that adds the

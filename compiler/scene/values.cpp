@@ -23,14 +23,10 @@ std::string shortened(std::string_view text) {
 
 std::string described(const Node& node) {
   switch (node.kind) {
-    case NodeKind::null:
-      return "nothing";
-    case NodeKind::list:
-      return "a list";
-    case NodeKind::map:
-      return "a map";
-    case NodeKind::scalar:
-      break;
+    case NodeKind::null: return "nothing";
+    case NodeKind::list: return "a list";
+    case NodeKind::map: return "a map";
+    case NodeKind::scalar: break;
   }
   if (node.text.find('\n') != std::string::npos) return "a text of several lines";
   const std::string shown = fmt::format("\"{}\"", shortened(node.text));

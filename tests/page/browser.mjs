@@ -11,8 +11,8 @@ export async function browser() {
 }
 
 /** A page of its own, with its errors and the requests that it made. */
-export async function open(chrome, file, { width = 800, height = 600, touch = false, hash = '' } = {}) {
-  const context = await chrome.newContext({ viewport: { width, height }, deviceScaleFactor: 1, colorScheme: 'dark', hasTouch: touch });
+export async function open(chrome, file, { width = 800, height = 600, touch = false, light = false, hash = '' } = {}) {
+  const context = await chrome.newContext({ viewport: { width, height }, deviceScaleFactor: 1, colorScheme: light ? 'light' : 'dark', hasTouch: touch });
   const page = await context.newPage();
   page.setDefaultTimeout(300_000);
   const errors = [], requests = [];

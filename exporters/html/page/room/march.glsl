@@ -1,6 +1,5 @@
 // Follows a ray of the floor through the real mirrors of the room until it meets floor, ceiling or a plain wall, and shades what it meets.
 // Nothing is unfolded, so it is right at any depth; only objects and frames are drawn as copies.
-uniform vec3 wall_line[N];       // covectors, positive inside
 uniform vec3 wall_start[N];      // where the arc length is 0
 uniform vec3 wall_along[N];      // the direction there
 uniform vec4 mirror_area[M];     // arc from, to, height from, to; M = N times mirrors a wall
@@ -9,11 +8,9 @@ uniform vec4 surface_color[S];   // walls, then floor, then ceiling: first color
 uniform vec4 surface_second[S];  // second color, and the cell's size in w
 uniform vec4 horizontal_mirror[2];  // floor, ceiling: what they reflect; w = 1 if they are mirrors
 uniform float height;
-uniform float exposure;
 uniform vec3 background;         // where mirrors are followed no further; before exposure
 uniform int bounces;
 uniform float min_weight;
-uniform int lit;                 // 1: the light maps hold light
 uniform sampler2D floor_light;
 uniform sampler2D ceiling_light;
 uniform sampler2D wall_light;
@@ -37,7 +34,8 @@ vec3 pattern_color(int s, vec2 at, vec3 in_space) {
   if (pattern == 5) return first.rgb * pow(texture(shell_texture, vec2(in_space.x, -in_space.y) / second.w).rgb, vec3(2.2));
 #endif
 #ifdef SOLID
-  return mix(first.rgb, second.rgb, solid(pattern, in_space / second.w));
+  vec3 there = in_space / second.w;
+  return mix(first.rgb, second.rgb, pattern == 2 ? marble(there) : pattern == 3 ? wood(there) : granite(there));
 #else
   return first.rgb;
 #endif

@@ -17,13 +17,22 @@ uniform vec2 half_size;
 uniform vec4 view;
 uniform mat3 moved;        // where the part is while it is dragged: room from its old place
 uniform float lifted;
-out vec3 albedo;
-out vec3 at;
-out vec3 arriving;
 flat out vec3 share;
-out vec4 place;            // the point in room coordinates
+#if PATTERN == 0 || PATTERN == 5
+out vec3 albedo;
+#endif
+#if PATTERN != 0
+out vec3 at;
+#endif
+#if SHINE == 0
+out vec3 arriving;
+#else
 out vec4 facing;           // the normal in room coordinates
 flat out mat3 eye_from_copy;
+#endif
+#if SHINE != 0 || defined(IN_ROOM)
+out vec4 place;            // the point in room coordinates
+#endif
 #if K > 0
 out vec2 reach;            // length on the floor, and that which the direction alone gives
 #endif
@@ -49,13 +58,22 @@ void main() {
   gl_Position = vec4(screen + view.zw * depth, (FAR + NEAR) / (FAR - NEAR) * depth - 2.0 * FAR * NEAR / (FAR - NEAR), depth);
   // A frame and its image meet in the mirror: the one behind fewer mirrors lies in front.
   gl_Position.z += 4e-6 * floor(weight.w / 8.0) * depth;
-  albedo = color;
-  at = coordinate;
-  arriving = light;
   share = weight.rgb;
-  place = vec4(p, position.w + lifted);
+#if PATTERN == 0 || PATTERN == 5
+  albedo = color;
+#endif
+#if PATTERN != 0
+  at = coordinate;
+#endif
+#if SHINE == 0
+  arriving = light;
+#else
   facing = vec4(moved * normal.xyz, normal.w);
   eye_from_copy = mat3(row_w, row_x, row_y);
+#endif
+#if SHINE != 0 || defined(IN_ROOM)
+  place = vec4(p, position.w + lifted);
+#endif
 #ifdef CODED
   word_of_copy = word;
 #endif

@@ -3,6 +3,7 @@ import objectFragment from './object.frag';
 import objectVertex from './object.vert';
 import roomFragment from './room.frag';
 import roomVertex from './room.vert';
+import solidText from './solid.glsl';
 import spaceText from './space.glsl';
 
 /** What a program depends on. Walls and colors are uniforms: no edit rebuilds a program, unless one of these changes. */
@@ -18,7 +19,17 @@ export interface ProgramKey {
   texturedShell: boolean;
 }
 
-export const nameOf = (key: ProgramKey): string => JSON.stringify(key);
+/** How the surface of a mesh looks, as far as programs differ by it. */
+export interface Look {
+  /** 0 colors of vertices, 2 marble, 3 wood, 4 granite, 5 texture. */
+  pattern: number;
+  /** 0 it shows the light that arrives, or its own; 1 metal, 2 mirror, 3 glass. */
+  shine: number;
+  /** It reaches out of the room, and is not seen there. */
+  inRoom: boolean;
+}
+
+export const nameOf = (key: ProgramKey, look?: Look): string => JSON.stringify([key, look]);
 
 function head(key: ProgramKey): string {
   const lines = [
@@ -55,9 +66,12 @@ function marchOf(key: ProgramKey): string {
 }
 
 export function roomSources(key: ProgramKey): [string, string] {
-  return [head(key) + roomVertex, head(key) + spaceText + marchOf(key) + roomFragment];
+  return [head(key) + roomVertex, head(key) + spaceText + (key.solidShell ? solidText : '') + marchOf(key) + roomFragment];
 }
 
-export function objectSources(key: ProgramKey): [string, string] {
-  return [head(key) + 'precision highp float;\nprecision highp int;\n' + objectVertex, head(key) + spaceText + marchOf({ ...key, coded: false }) + objectFragment];
+export function objectSources(key: ProgramKey, look: Look): [string, string] {
+  const own = head(key) + `#define PATTERN ${look.pattern}\n#define SHINE ${look.shine}\n` + (look.inRoom ? '#define IN_ROOM\n' : '');
+  const solid = (look.pattern >= 2 && look.pattern <= 4) || (look.shine > 0 && key.solidShell) ? solidText : '';
+  const march = look.shine > 0 ? marchOf({ ...key, coded: false }) : '';
+  return [own + 'precision highp float;\nprecision highp int;\n' + objectVertex, own + spaceText + solid + march + objectFragment];
 }

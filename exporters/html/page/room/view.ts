@@ -4,7 +4,7 @@ import type { CopiesReply, LightReply, Material, MeshPart, SceneReply } from '..
 import { beams, codeOf, groupCopies, wallKinds, type Copy, type WallKinds } from './copies';
 import { axes, type Eye } from './eye';
 import * as g from './geometry';
-import { nameOf, objectSources, roomSources, type ProgramKey } from './shaders';
+import { nameOf, objectSources, roomSources, type Look, type ProgramKey } from './shaders';
 
 interface Program {
   program: WebGLProgram;
@@ -30,22 +30,22 @@ export interface Shot {
   /** Where a part stands while it is dragged: its number, room from its old place, and how far it is lifted. */
   moved?: { part: number; map: g.Matrix; lifted: number };
   selected?: number;
-  /** Coarser levels of detail will do. */
-  moving?: boolean;
+  /** How fine the levels of detail are. */
+  detail: 'exact' | 'rest' | 'moving';
   /** A fraction of a pixel by which the picture is shifted, for smoothing. */
   jitter?: [number, number];
 }
 
 const patterns = ['plain', 'checker', 'marble', 'wood', 'granite', 'texture'];
-const kinds = ['matte', 'glossy', 'metal', 'mirror', 'glass', 'emissive'];
 const floatsPerInstance = 13;
-const errorPixels = [0.5, 2]; // of levels of detail: at rest, moving
+const errorPixels = { exact: 0.25, rest: 1, moving: 2 }; // of levels of detail
 
 export class RoomView {
   readonly gl: WebGL2RenderingContext;
   /** There is no graphics card: pictures begin coarse while one walks. */
   readonly isSoftware: boolean;
   private programs = new Map<string, Program>();
+  private prepared = new Set<Program>();
   private scene: SceneReply | null = null;
   private key!: ProgramKey;
   private kinds!: WallKinds;
@@ -63,6 +63,8 @@ export class RoomView {
   private sum: { frame: WebGLFramebuffer; texture: WebGLTexture; width: number; height: number; count: number } | null = null;
   /** What the last picture was made of. */
   counts = { copies: 0, triangles: 0 };
+  /** Programs that were built so far: a picture that needs a new one is slow once. */
+  built = 0;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const gl = canvas.getContext('webgl2', { antialias: false, alpha: false, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
@@ -173,7 +175,7 @@ export class RoomView {
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
     gl.drawBuffers(this.key.coded ? [gl.COLOR_ATTACHMENT0, gl.COLOR_ATTACHMENT1] : [gl.COLOR_ATTACHMENT0]);
     gl.disable(gl.DEPTH_TEST);
-    const rooms = this.program('room', this.key);
+    const rooms = this.roomProgram();
     gl.useProgram(rooms.program);
     this.setShell(rooms);
     this.setEye(rooms, shot, width, height);
@@ -357,37 +359,51 @@ export class RoomView {
       gl.bindBuffer(gl.ARRAY_BUFFER, this.words);
       gl.bufferData(gl.ARRAY_BUFFER, words, gl.STREAM_DRAW);
     }
-    const p = this.program('object', this.key);
-    gl.useProgram(p.program);
-    this.setShell(p);
-    if (scene.light.lit) gl.uniform1i(p.at('lit'), 1);
-    this.setEye(p, shot, width, height);
-    gl.activeTexture(gl.TEXTURE5);
-    gl.bindTexture(gl.TEXTURE_2D, code);
-    gl.uniform1i(p.at('path_code'), 5);
+    this.prepared.clear();
     this.counts = { copies: total, triangles: 0 };
     let first = 0;
     this.meshes.forEach((mesh, i) => {
+      const p = this.objectProgram(this.lookOf(mesh.part));
+      gl.useProgram(p.program);
+      this.prepare(p, shot, code, width, height);
       this.drawMesh(p, mesh, shot, { first, distances: lists[i]!.map((image) => image.distance) }, pixels);
       first += lists[i]!.length;
     });
     gl.bindVertexArray(null);
   }
 
+  private lookOf(part: MeshPart): Look {
+    const scene = this.scene!;
+    const style = part.style >= 0 ? scene.styles[part.style]! : null;
+    const pattern = !style ? 0 : style.texture >= 0 ? 5 : ['marble', 'wood', 'granite'].includes(style.pattern) ? patterns.indexOf(style.pattern) : 0;
+    const shine = style?.kind === 'metal' && scene.light.lit ? 1 : style?.kind === 'mirror' ? 2 : style?.kind === 'glass' ? 3 : 0;
+    return { pattern, shine, inRoom: part.part < 0 };
+  }
+
+  /** What a program of objects needs to know once a picture. */
+  private prepare(p: Program, shot: Shot, code: WebGLTexture, width: number, height: number): void {
+    const { gl } = this;
+    if (this.prepared.has(p)) return;
+    this.prepared.add(p);
+    this.setShell(p);
+    if (this.scene!.light.lit) gl.uniform1i(p.at('lit'), 1);
+    this.setEye(p, shot, width, height);
+    gl.activeTexture(gl.TEXTURE5);
+    gl.bindTexture(gl.TEXTURE_2D, code);
+    gl.uniform1i(p.at('path_code'), 5);
+  }
+
   private drawMesh(p: Program, mesh: Mesh, shot: Shot, images: { first: number; distances: number[] }, pixels: number): void {
     const { distances } = images;
-    const moving = shot.moving ?? false;
     const { gl } = this;
     const scene = this.scene!;
     const style = mesh.part.style >= 0 ? scene.styles[mesh.part.style]! : null;
-    gl.uniform1i(p.at('style_pattern'), style ? (style.texture >= 0 ? 5 : style.pattern === 'checker' || style.pattern === 'texture' ? 0 : patterns.indexOf(style.pattern)) : 0);
-    gl.uniform1i(p.at('style_kind'), style ? kinds.indexOf(style.kind) : 0);
+    gl.uniform1f(p.at('style_emission'), style?.kind === 'emissive' ? style.emission : 0);
     if (style) {
       gl.uniform3fv(p.at('style_first'), style.color);
       gl.uniform3fv(p.at('style_second'), style.second);
       gl.uniform1f(p.at('style_cell'), style.cell);
       gl.uniform1f(p.at('style_cutoff'), style.cutoff);
-      gl.uniform1f(p.at('style_emission'), style.emission);
       gl.uniform1f(p.at('style_index'), style.index);
     }
     gl.activeTexture(gl.TEXTURE6);
@@ -397,12 +413,11 @@ export class RoomView {
     const m = moved?.map ?? g.identity();
     gl.uniformMatrix3fv(p.at('moved'), false, [...g.column(m, 0), ...g.column(m, 1), ...g.column(m, 2)]);
     gl.uniform1f(p.at('lifted'), moved?.lifted ?? 0);
-    gl.uniform1i(p.at('in_room'), mesh.part.part < 0 ? 1 : 0);
     const glow = shot.selected !== undefined && shot.selected === mesh.part.part ? 0.02 : 0;
     gl.uniform3f(p.at('glow'), glow, glow * 1.6, glow * 2.6);
     gl.bindVertexArray(mesh.vao);
     // The copies stand by distance: the first are drawn in all detail, the next from coarser levels, as far as the error stays small.
-    const allowed = errorPixels[moving ? 1 : 0]! / pixels;
+    const allowed = errorPixels[shot.detail] / pixels;
     let first = 0;
     while (first < distances.length) {
       const levelAt = (i: number) => {
@@ -550,10 +565,13 @@ export class RoomView {
     return (this.target = { frame, second, color, code, depth, width, height });
   }
 
-  private program(kind: 'room' | 'object', key: ProgramKey): Program {
-    const name = kind + nameOf(key);
-    const [vertex, fragment] = kind === 'room' ? roomSources(key) : objectSources(key);
-    return this.programs.get(name) ?? this.link(name, vertex, fragment);
+  private roomProgram(): Program {
+    const name = nameOf(this.key);
+    return this.programs.get(name) ?? this.link(name, ...roomSources(this.key));
+  }
+  private objectProgram(look: Look): Program {
+    const name = nameOf(this.key, look);
+    return this.programs.get(name) ?? this.link(name, ...objectSources(this.key, look));
   }
   private plain(name: string, fragment: string): Program {
     const vertex = '#version 300 es\nvoid main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }';
@@ -562,6 +580,7 @@ export class RoomView {
   private link(name: string, vertex: string, fragment: string): Program {
     const { gl } = this;
     const program = gl.createProgram()!;
+    ++this.built;
     for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
       const shader = gl.createShader(type)!;
       gl.shaderSource(shader, text);

@@ -146,7 +146,7 @@ export class Walk {
 
   // ---- pointer and touch -------------------------------------------------------------------------------------------------------------
 
-  private ray(e: PointerEvent): g.Vector {
+  private ray(e: { clientX: number; clientY: number }): g.Vector {
     const shot = this.shot();
     const t = Math.tan(shot.fov / 2);
     const a = axes(shot.eye);
@@ -155,16 +155,19 @@ export class Walk {
     return [0, 1, 2].map((i) => a.forward[i]! + x * a.right[i]! + y * a.up[i]!) as g.Vector;
   }
 
+  /** The object, not its image, that stands under a point of the screen, or -1. */
+  objectAt(clientX: number, clientY: number): number {
+    if (!app.scene.value || !app.eye.value) return -1;
+    const found = pick(app.scene.value, app.eye.value, this.ray({ clientX, clientY }));
+    return found.word.length === 0 ? found.object : -1;
+  }
+
   private down(e: PointerEvent): void {
     this.canvas.focus();
     app.menu.value = null;
     this.canvas.setPointerCapture(e.pointerId);
     const left = e.pointerType === 'touch' && app.mode.value === 'walk' && e.clientX < innerWidth / 2;
-    let object = -1;
-    if (app.mode.value === 'design' && app.scene.value && app.eye.value) {
-      const found = pick(app.scene.value, app.eye.value, this.ray(e));
-      if (found.object >= 0 && found.word.length === 0) object = found.object;
-    }
+    const object = app.mode.value === 'design' ? this.objectAt(e.clientX, e.clientY) : -1;
     this.pointers.set(e.pointerId, { x: e.clientX, y: e.clientY, startX: e.clientX, startY: e.clientY, role: left ? 'walk' : object >= 0 ? 'thing' : 'look', moved: false, object });
   }
 
@@ -292,7 +295,7 @@ export class Walk {
     const chosen = app.selection.value;
     const name = chosen.kind === 'object' && app.mode.value === 'design' ? s.objects[chosen.index]?.name : undefined;
     const selected = name === undefined ? undefined : s.meshes.parts.find((p) => p.name === name)?.part;
-    return { eye: app.eye.value!, fov, shift: [shift, 0], scale: this.exact ? 1 : scales[this.level]!, ...(selected === undefined ? {} : { selected }) };
+    return { eye: app.eye.value!, fov, shift: [shift, 0], scale: this.exact ? 1 : scales[this.level]!, detail: this.exact ? 'exact' : 'rest', ...(selected === undefined ? {} : { selected }) };
   }
 
   private frame(now: number): void {
@@ -319,12 +322,14 @@ export class Walk {
     this.dirty = this.newLight = false;
     this.lastLive = begin;
     this.truth.stop();
-    this.view.draw({ ...this.shot(), moving: true });
+    const built = this.view.built;
+    this.view.draw({ ...this.shot(), detail: this.exact ? 'exact' : 'moving' });
     this.view.show();
     this.view.restartMean();
     this.smoothed = 0;
     gl.finish();
     const took = performance.now() - begin;
+    if (this.view.built > built) return;
     this.frames.push(took);
     if (this.frames.length > 120) this.frames.shift();
     // Slower than 22 frames a second: coarser pictures, until they are fast enough.

@@ -15,7 +15,7 @@ export function savePicture(): void {
 }
 /** The page as it came, with the scene of now. */
 export function savePage(): void {
-  const copy = pristine.replace(/(<script type="application\/yaml" id="scene">)[\s\S]*?(<\/script>)/, (_, a: string, b: string) => a + JSON.stringify(app.text.value).replace(/</g, '\\u003c') + b);
+  const copy = pristine.replace(/(<script type="application\/json" id="scene">)[\s\S]*?(<\/script>)/, (_, a: string, b: string) => a + JSON.stringify(app.text.value).replace(/</g, '\\u003c') + b);
   saveFile('room.html', copy, 'text/html');
 }
 let pristine = '';
