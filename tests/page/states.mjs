@@ -56,24 +56,38 @@ const states = {
   'empty-1024': [tablet, async () => {}, { empty: true }],
   'empty-phone': [phone, async () => {}, { empty: true }],
 };
+// What a state leaves behind is taken back, so that states of one size share a page and its light.
+const reset = "(app.document_.replaceAll(globalThis.first ??= app.text.value), app.mode.value = 'walk', app.tab.value = 'things', app.menu.value = null, " +
+  "app.corner.value = null, app.projector.value = false, app.fatal.value = null, app.difference.value = false, app.selection.value = { kind: 'room' }, " +
+  "app.eye.value = app.home, app.stepped.value = false, 0)";
 mkdirSync(folder, { recursive: true });
 const chrome = await browser();
+const pages = new Map();
 for (const [name, [size, act, options = {}]] of Object.entries(states)) {
   if (wanted.length > 0 && !wanted.includes(name)) continue;
-  const { page, errors } = await open(chrome, options.empty ? emptyFile : file, { ...size, light: options.light });
-  try {
-    if (options.empty) await page.waitForSelector('#empty');
+  const key = JSON.stringify([size, options]);
+  if (!pages.has(key)) {
+    const opened = await open(chrome, options.empty ? emptyFile : file, { ...size, light: options.light });
+    pages.set(key, opened);
+    if (options.empty) await opened.page.waitForSelector('#empty');
     else {
-      await ready(page);
-      await until(page, 'app.lightShare.value >= 1');
+      await ready(opened.page);
+      await until(opened.page, 'app.lightShare.value >= 1');
     }
+  }
+  const { page, errors } = pages.get(key);
+  try {
+    if (!options.empty) await app(page, reset);
+    await page.mouse.move(700, 300);
+    await pause(page, 400);
     await act(page);
-    await pause(page, name === 'walking' ? 0 : 2500);
+    if (!options.empty && name !== 'walking' && name !== 'fatal') await until(page, 'walk().smoothed >= 3', 20).catch(() => {});
     await page.screenshot({ path: `${folder}/${name}.png` });
+    await page.keyboard.up('e');
+    await page.mouse.up();
   } catch (error) {
     console.log(`${name}: ${error}`);
   }
-  if (errors.length > 0) console.log(`${name}: ${errors}`);
-  await page.context().close();
+  if (errors.length > 0) console.log(`${name}: ${errors.splice(0)}`);
 }
 await chrome.close();

@@ -10,7 +10,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const bundle = async (entry) => {
   const made = await build({
     entryPoints: [join(here, entry)], bundle: true, write: false, minify: true, format: 'iife', target: 'es2022', charset: 'utf8',
-    jsx: 'automatic', jsxImportSource: 'preact', loader: { '.glsl': 'text', '.vert': 'text', '.frag': 'text' }, legalComments: 'none',
+    jsx: 'automatic', jsxImportSource: 'preact', loader: { '.glsl': 'text', '.vert': 'text', '.frag': 'text', '.yaml': 'text', '.jpg': 'dataurl' }, legalComments: 'none',
   });
   return made.outputFiles[0].text;
 };

@@ -1,3 +1,5 @@
 declare module '*.glsl' { const text: string; export default text; }
 declare module '*.vert' { const text: string; export default text; }
 declare module '*.frag' { const text: string; export default text; }
+declare module '*.yaml' { const text: string; export default text; }
+declare module '*.jpg' { const address: string; export default address; }

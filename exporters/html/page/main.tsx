@@ -6,6 +6,7 @@ import * as app from './state/app';
 import { sceneOf } from './state/share';
 import { Bar, Compass, Difference, Empty, Fatal, Help, Menus, Status, Tag, Toast } from './ui/Chrome';
 import { rememberPage, take } from './ui/files';
+import { Gizmos } from './ui/Gizmos';
 import { Panel } from './ui/Panel';
 import { CornerPopover, Tiling } from './ui/Tiling';
 
@@ -20,6 +21,7 @@ async function unpacked(text: string): Promise<ArrayBuffer> {
 function draw(walk: { current: Walk | null }, again: () => void): void {
   const Page = () => (
     <>
+      <Gizmos />
       <Tiling />
       <CornerPopover />
       <Bar />

@@ -69,7 +69,8 @@ function nearestObject(scene: SceneReply, p: g.Vector, v: g.Vector, z: number, s
   return found;
 }
 
-function frameAt(k: number, at: ArrayLike<number>): g.Matrix {
+/** The translation that takes the centre to a point of the floor. */
+export function frameAt(k: number, at: ArrayLike<number>): g.Matrix {
   const [x, y] = g.logMap(k, at);
   return g.translation(k, x, y);
 }

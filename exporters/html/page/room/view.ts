@@ -461,7 +461,7 @@ export class RoomView {
         const scale = flat > 1e-9 ? (side * flat) / Math.hypot(x, y) : 1;
         const ahead = (scale * x * a.forward[0] + scale * y * a.forward[1] + z * a.forward[2]) / distance;
         if (Math.acos(Math.min(1, Math.max(-1, ahead))) > edge + Math.asin(Math.min(1, radius / distance))) return;
-        if ((radius / distance) * pixels < 0.7) return;
+        if ((radius / distance) * pixels < (shot.detail === 'moving' ? 1.4 : 0.7)) return;
       }
       list.push({ index, distance: Math.max(0.03, distance - radius) / growth });
     });
@@ -658,7 +658,7 @@ function levelsOf(scene: SceneReply, part: MeshPart): { indices: Uint32Array; le
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (const v of part.indices) at(v).forEach((x, c) => ((low[c] = Math.min(low[c]!, x)), (high[c] = Math.max(high[c]!, x))));
     const extent = Math.max(...high.map((x, c) => x - low[c]!), 1e-6);
-    for (const cells of [64, 32, 16, 8, 4]) {
+    for (const cells of [96, 64, 48, 32, 24, 16, 12, 8, 6, 4]) {
       const size = extent / cells;
       const owner = new Map<number, number>(), representative = new Map<number, number>();
       const kept: number[] = [];
@@ -676,8 +676,8 @@ function levelsOf(scene: SceneReply, part: MeshPart): { indices: Uint32Array; le
         if (a !== b && b !== c && c !== a) kept.push(a, b, c);
       }
       const last = levels[levels.length - 1]!;
-      if (kept.length > 0.8 * last.count || kept.length === 0) continue;
-      levels.push({ first: last.first + last.count, count: kept.length, error: 0.7 * size });
+      if (kept.length > 0.75 * last.count || kept.length === 0) continue;
+      levels.push({ first: last.first + last.count, count: kept.length, error: 0.6 * size });
       lists.push(new Uint32Array(kept));
     }
   }

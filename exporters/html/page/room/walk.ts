@@ -3,8 +3,9 @@ import { effect } from '@preact/signals';
 import * as app from '../state/app';
 import { Truth } from '../truth/truth';
 import { moveObject } from '../ui/move';
-import { axes, eyeOfScene, lift, step, type Eye } from './eye';
+import { eyeOfScene, lift, step, type Eye } from './eye';
 import * as g from './geometry';
+import { lens, rayAt } from './lens';
 import { pick, pointAtHeight } from './pick';
 import type { RoomView, Shot } from './view';
 
@@ -128,9 +129,7 @@ export class Walk {
 
   private escape(): void {
     if (this.pointers.size > 0 && app.dragging.value) {
-      app.document_.cancel();
-      app.dragging.value = false;
-      app.tag.value = null;
+      app.cancelDrag();
       this.pointers.clear();
     } else if (app.menu.value) app.menu.value = null;
     else if (app.corner.value !== null) app.corner.value = null;
@@ -147,12 +146,7 @@ export class Walk {
   // ---- pointer and touch -------------------------------------------------------------------------------------------------------------
 
   private ray(e: { clientX: number; clientY: number }): g.Vector {
-    const shot = this.shot();
-    const t = Math.tan(shot.fov / 2);
-    const a = axes(shot.eye);
-    const x = ((2 * e.clientX) / innerWidth - 1 - shot.shift[0]) * t;
-    const y = ((1 - (2 * e.clientY) / innerHeight - shot.shift[1]) * t * innerHeight) / innerWidth;
-    return [0, 1, 2].map((i) => a.forward[i]! + x * a.right[i]! + y * a.up[i]!) as g.Vector;
+    return rayAt(lens(), e.clientX, e.clientY);
   }
 
   /** The object, not its image, that stands under a point of the screen, or -1. */
@@ -196,16 +190,17 @@ export class Walk {
     const s = app.scene.value!, eye = app.eye.value!;
     const at = pointAtHeight(s, eye, this.ray(e), s.objects[object]!.at[3]!);
     if (!at) return;
-    moveObject(object, at);
+    moveObject(object, at, e.altKey);
     app.selection.value = { kind: 'object', index: object };
-    const [x, y] = g.logMap(s.room.curvature, at);
+    const there = app.draggedTo.value ?? at;
+    const [x, y] = g.logMap(s.room.curvature, there);
     const blocked = app.stale.value;
-    const reason = app.errors.value[0]?.message ?? '';
+    const place = `${Math.hypot(x, y).toPrecision(3)} from the centre, ${Math.round((Math.atan2(y, x) * 180) / Math.PI + 360) % 360}°`;
     app.tag.value = {
       x: e.clientX + 16,
       y: e.clientY + (e.pointerType === 'touch' ? -48 : 16),
       title: s.objects[object]!.name,
-      more: blocked ? reason : `${Math.hypot(x, y).toPrecision(3)} from the centre, ${Math.round((Math.atan2(y, x) * 180) / Math.PI + 360) % 360}°`,
+      more: blocked ? (app.errors.value[0]?.message ?? '') : app.snapped.value ? `${place}, ${app.snapped.value.words}` : place,
       blocked,
     };
   }
@@ -233,10 +228,7 @@ export class Walk {
     this.pointers.delete(e.pointerId);
     if (!p) return;
     if (p.role === 'thing' && p.moved) {
-      if (app.stale.value) app.document_.cancel();
-      else app.document_.release();
-      app.dragging.value = false;
-      app.tag.value = null;
+      app.endDrag();
     }
     if (!p.moved && app.mode.value === 'design' && app.scene.value && app.eye.value) {
       const found = pick(app.scene.value, app.eye.value, this.ray(e));
@@ -282,20 +274,12 @@ export class Walk {
 
   // ---- drawing ---------------------------------------------------------------------------------------------------------------------
 
-  /** The lens, not the layout, moves: the principal point lies in the middle of what the plates leave free. */
   shot(): Shot {
     const s = app.scene.value!;
-    const design = app.mode.value === 'design' && innerHeight > 480;
-    const left = design ? 328 : 0, right = design ? (app.tab.value === 'text' ? 504 : 344) : 0;
-    const shift = innerWidth > left + right + 200 ? (left - right) / innerWidth : 0;
-    // The field of view belongs to the picture's shape in the file; of other shapes the smaller side counts.
-    const aspect = innerWidth / innerHeight, wanted = s.eye.size[0]! / s.eye.size[1]!;
-    const t = Math.tan(Math.min(2.6, s.eye.fov) / 2);
-    const fov = 2 * Math.atan(aspect > wanted ? Math.min(t * (aspect / wanted), t * 1.35) : t * Math.max(0.62, aspect / wanted));
     const chosen = app.selection.value;
     const name = chosen.kind === 'object' && app.mode.value === 'design' ? s.objects[chosen.index]?.name : undefined;
     const selected = name === undefined ? undefined : s.meshes.parts.find((p) => p.name === name)?.part;
-    return { eye: app.eye.value!, fov, shift: [shift, 0], scale: this.exact ? 1 : scales[this.level]!, detail: this.exact ? 'exact' : 'rest', ...(selected === undefined ? {} : { selected }) };
+    return { ...lens(), scale: this.exact ? 1 : scales[this.level]!, detail: this.exact ? 'exact' : 'rest', ...(selected === undefined ? {} : { selected }) };
   }
 
   private frame(now: number): void {
@@ -344,10 +328,10 @@ export class Walk {
   private rest(now: number): void {
     const waited = now - this.restSince;
     if (waited < 180 || app.dragging.value) return;
-    const count = this.exact ? 1 : 9;
+    const count = this.exact ? 1 : this.view.isSoftware ? 4 : 9;
     if (this.smoothed < count) {
       const i = this.smoothed++;
-      const jitter: [number, number] = this.exact ? [0, 0] : [((i * 3 + 1) % 9) / 9 - 4 / 9, i / 9 - 4 / 9];
+      const jitter: [number, number] = this.exact ? [0, 0] : [((i * 3 + 1) % count) / count - 0.5 + 0.5 / count, (i + 0.5) / count - 0.5];
       this.view.draw({ ...this.shot(), scale: 1, jitter });
       this.view.showMean();
       if (this.smoothed === count) this.truth.remember();

@@ -2,6 +2,7 @@
 import { batch, computed, effect, signal } from '@preact/signals';
 import type { FromWorker, ToWorker } from '../core/worker';
 import { eyeOfScene, stands, type Eye } from '../room/eye';
+import type { Vector } from '../room/geometry';
 import { RoomView } from '../room/view';
 import { difference as diff, SceneText } from './document';
 import { textExtensions } from './editor';
@@ -23,6 +24,10 @@ export const empty = signal(false);
 export const fatal = signal<string | null>(null);
 export const dragging = signal(false);
 export const tag = signal<{ x: number; y: number; title: string; more: string; blocked: boolean } | null>(null);
+/** Of what is dragged: where it stood, where it is, what it snaps to. */
+export const dragStart = signal<number[] | null>(null);
+export const draggedTo = signal<Vector | null>(null);
+export const snapped = signal<{ words: string; line: Vector[] } | null>(null);
 export const eye = signal<Eye | null>(null);
 export const walking = signal(false);
 export const stepped = signal(false);
@@ -65,8 +70,43 @@ export function startWorker(source: string, wasm: ArrayBuffer, assets: [string, 
 export const send = (m: ToWorker, transfer: Transferable[] = []): void => worker?.postMessage(m, transfer);
 export const listen = (listener: (m: FromWorker) => void): void => void listeners.push(listener);
 
+let askedText = '';
+let answeredText = '';
+let goodText = '';
+let ending = false;
+let afterDrag: (() => void)[] = [];
+
+/** The pointer has let go. Once the core has judged the last place, the drag becomes one step of the history; from a place that cannot be,
+ *  what was dragged returns to the last that could. */
+export function endDrag(): void {
+  ending = true;
+  if (answeredText === text.value) settleDrag();
+}
+function settleDrag(): void {
+  ending = false;
+  if (stale.value) document_.drag(() => diff(document_.heldText() ?? text.value, goodText));
+  document_.release();
+  quietDrag();
+}
+export function cancelDrag(): void {
+  ending = false;
+  document_.cancel();
+  quietDrag();
+}
+function quietDrag(): void {
+  batch(() => {
+    dragging.value = false;
+    tag.value = null;
+    dragStart.value = draggedTo.value = snapped.value = null;
+  });
+  for (const act of afterDrag.splice(0)) act();
+}
+export const onceDragEnds = (act: () => void): void => void (afterDrag.length === 0 && afterDrag.push(act));
+
 function receive(m: FromWorker): void {
   if (m.kind === 'opened' && m.id === asked) {
+    answeredText = askedText;
+    if (m.scene.ok) goodText = askedText;
     batch(() => {
       diagnostics.value = m.scene.diagnostics;
       stale.value = !m.scene.ok;
@@ -80,6 +120,7 @@ function receive(m: FromWorker): void {
       lightShare.value = m.scene.light.lit ? 0 : 1;
       clampSelection(m.scene);
     });
+    if (ending && answeredText === text.value) settleDrag();
   } else if (m.kind === 'light' && m.id === asked) lightShare.value = m.light.all ? m.light.done / m.light.all : 1;
   else if (m.kind === 'notation') {
     replyFor.get(m.id)?.(m.reply);
@@ -107,7 +148,10 @@ export function watchText(): void {
     }
     empty.value = false;
     clearTimeout(timer);
-    timer = window.setTimeout(() => send({ kind: 'open', id: ++asked, text: now, copies: 64, most: 3000 }), 15);
+    timer = window.setTimeout(() => {
+      askedText = now;
+      send({ kind: 'open', id: ++asked, text: now, copies: 64, most: 3000 });
+    }, 15);
   });
   let saving = 0;
   effect(() => {

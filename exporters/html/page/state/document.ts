@@ -40,6 +40,10 @@ export class SceneText {
     const whole = this.held.slice(0, splice.from) + splice.insert + this.held.slice(splice.to);
     this.silently(whole);
   }
+  /** The text as it was before the drag; null: nothing is dragged. */
+  heldText(): string | null {
+    return this.held;
+  }
   release(): void {
     if (this.held === null) return;
     const final = this.text.value, before = this.held;

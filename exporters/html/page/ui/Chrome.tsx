@@ -208,9 +208,14 @@ export function Empty() {
         <div class="cards">
           {examples.map((e, i) => (
             <button class="card" key={e.notation} onClick={() => app.document_.replaceAll(e.text)}>
-              <Icon name={e.space} />
+              <img src={e.picture} alt="" />
               <h2>
-                <span class="mono">{e.notation}</span> {e.where} <i class="math">χ</i> = {e.chi} <kbd>{i + 1}</kbd>
+                <Icon name={e.space} />
+                <span class="mono">{e.notation}</span>
+                <span class="dim">
+                  {e.where} <i class="math">χ</i> = {e.chi}
+                </span>
+                <kbd>{i + 1}</kbd>
               </h2>
               <p class="dim">{e.line}</p>
             </button>

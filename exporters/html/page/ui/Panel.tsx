@@ -178,7 +178,10 @@ function ObjectInspector({ index }: { index: number }) {
   if (!object) return <RoomList />;
   const path = app.objectPath(index), k = s.room.curvature;
   const [x, y] = g.logMap(k, object.at);
-  const r = Math.hypot(x, y), angle = ((Math.atan2(y, x) * 180) / Math.PI + 360) % 360;
+  // What the text says counts: the place that the core tells has been rounded on its way.
+  const polar = [0, 1].map((i) => parseFloat(getScalar(app.text.value, [...path, 'at', 'polar', i]) ?? 'none'));
+  const r = Number.isFinite(polar[0]) ? polar[0]! : Math.hypot(x, y);
+  const angle = Number.isFinite(polar[1]) ? (polar[1]! + 360) % 360 : ((Math.atan2(y, x) * 180) / Math.PI + 360) % 360;
   const z = Number(getScalar(app.text.value, [...path, 'at', 'z']) ?? 0);
   const at = (radius: number, degrees: number, height: number) => `{polar: [${app.written(radius)}, ${Number(degrees.toFixed(1))}deg]${height === 0 ? '' : `, z: ${app.written(height)}`}}`;
   const turn = parseFloat(getScalar(app.text.value, [...path, 'turn']) ?? '0');

@@ -150,12 +150,11 @@ function Overlay() {
               onPointerMove={(e) => {
                 if (!grip.current) return;
                 grip.current.moved = true;
-                moveObject(grip.current.object, place(e));
+                moveObject(grip.current.object, place(e), e.altKey);
               }}
               onPointerUp={() => {
-                if (grip.current?.moved) app.document_.release();
+                if (grip.current?.moved) app.endDrag();
                 grip.current = null;
-                app.dragging.value = false;
               }}
             >
               <title>{object.name}</title>
@@ -268,7 +267,11 @@ function Corners({ orders, strip }: { orders: string[]; strip: boolean }) {
           <Icon name="plus" />
         </button>
       </span>
-      {app.scene.value!.room.moduli > 0 && <span class="dim end">{app.scene.value!.room.moduli} free lengths</span>}
+      {app.scene.value!.room.moduli > 0 && (
+        <span class="dim end" title="So many lengths of the room are free: cuts or lengths in the text set them">
+          {app.scene.value!.room.moduli} free
+        </span>
+      )}
     </div>
   );
 }
