@@ -11,6 +11,7 @@
 
 #include "compiler/cli/output.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/driver/load.h"
 #include "compiler/mesh_io/load.h"
@@ -55,8 +56,8 @@ int write(const html::PageScene& scene, const std::string& output, const Diagnos
   write_output(output, file->bytes);
   print_result({{"output", output}, {"format", "html"}, {"bytes", file->bytes.size()}}, notes, common);
   if (!common.quiet)
-    fmt::print(stderr, "{}: {:.2f} MB, {} files within\n", shown(output), static_cast<double>(file->bytes.size()) / 1e6,
-               scene.files.size());
+    print_message(fmt::format("{}: {:.2f} MB, {} {} within\n", shown(output), static_cast<double>(file->bytes.size()) / 1e6,
+                              scene.files.size(), scene.files.size() == 1 ? "file" : "files"));
   return kDone;
 }
 
@@ -64,11 +65,12 @@ int write_scene(const SceneArguments& arguments, const std::string& output, cons
   check_outputs({output});
   const scene::Overrides overrides = overrides_of(arguments);
   if (!overrides.empty()) throw UsageError("the page holds the text of the scene: say in the scene what --set and its like would change");
-  const auto loaded = driver::load(arguments.scene, overrides);
+  const auto loaded = driver::load(arguments.scene, overrides, parse_bytes(common.max_memory));
   if (!loaded) return print(loaded.error(), common), kSceneWrong;
   refuse_inputs({output}, loaded->files);
   print(loaded->notes, common);
-  const auto scene = html::page_scene(text_of(loaded->scene), loaded->scene, loaded->interior->polygon, mesh_io::assets_from_files());
+  const mesh::AssetSource assets = mesh_io::assets_from_files(mesh_io::bounds_within(parse_bytes(common.max_memory)));
+  const auto scene = html::page_scene(text_of(loaded->scene), loaded->scene, loaded->interior->polygon, assets);
   if (!scene) return print(scene.error(), common), kSceneWrong;
   return write(*scene, output, loaded->notes, common);
 }
@@ -85,7 +87,7 @@ int design(const DesignArguments& a, const Common& common) {
   scene.scene = a.scene;
   const int code = a.scene.empty() ? write({}, output, {}, common) : write_scene(scene, output, common);
   if (code != kDone || !a.open || output == "-") return code;
-  if (!start_browser(output) && !common.quiet) fmt::print(stderr, "no browser could be started; open {} in one\n", shown(output));
+  if (!start_browser(output) && !common.quiet) print_message(fmt::format("no browser could be started; open {} in one\n", shown(output)));
   return kDone;
 }
 
