@@ -2,7 +2,7 @@
 #include "compiler/light/connection.h"
 
 #include <algorithm>
-#include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -21,13 +21,19 @@ using scene::Color;
 constexpr double kArrivalTolerance = 1e-5;  // distance of a shadow ray's end from the lamp's sample; its own error is below 1e-12 in rooms
 constexpr double kUndersideGap = 1e-4;      // of the room's height: an object's own underside is nearer to the floor under it
 
-/// The segments of a shadow ray between mirrors, up to the first wall without a mirror.
+constexpr std::size_t kMaxSegments = 32;
+
+/// A segment of a shadow ray between two mirrors.
+struct ShadowSegment {
+  trace::Ray ray;
+  double length = 0;
+  bool ends_at_wall = false;
+};
+
+/// A shadow ray up to the first wall without a mirror.
 struct ShadowPath {
-  static constexpr int kMaxSegments = 32;
-  std::array<trace::Ray, kMaxSegments> rays;
-  std::array<double, kMaxSegments> lengths{};
-  std::array<std::int16_t, kMaxSegments> walls{};  ///< with the mirrors between them, without floor and ceiling
-  int segments = 0, wall_count = 0;
+  boost::container::static_vector<ShadowSegment, kMaxSegments> segments;
+  boost::container::static_vector<std::int16_t, kMaxSegments> walls;  ///< with the mirrors between segments, without floor and ceiling
   Color throughput{1, 1, 1};
   bool complete = false;  ///< it has the whole length
 };
@@ -71,21 +77,41 @@ FloorGeodesic floor_geodesic(Space space, const geometry::Point& p, const geomet
 ShadowPath reflected_path(const trace::TraceScene& scene, trace::Ray ray, double length, int bounces) {
   ShadowPath path;
   for (;;) {
-    const trace::Exit exit = trace::exit_of(scene.prism, ray);
-    path.rays[static_cast<std::size_t>(path.segments)] = ray;
-    path.lengths[static_cast<std::size_t>(path.segments++)] = std::min(exit.t, length);
+    const trace::Exit exit = trace::exit_of(scene.prism, ray, length);
+    path.segments.push_back({ray, std::min(exit.t, length), exit.t < length && exit.surface >= 0});
     if (exit.t >= length) {
       path.complete = true;
       return path;
     }
-    const trace::MirrorRect* mirror = trace::mirror_at(scene, ray, exit.t, exit.surface);
-    if (!mirror || path.segments > bounces || path.segments == ShadowPath::kMaxSegments) return path;
-    path.throughput = path.throughput * mirror->throughput;
-    if (exit.surface >= 0) path.walls[static_cast<std::size_t>(path.wall_count++)] = static_cast<std::int16_t>(exit.surface);
-    length -= exit.t;
-    ray = exit.surface >= 0 ? trace::reflected_in_wall(scene.prism, ray, exit.t, exit.surface)
+    if (path.segments.size() > static_cast<std::size_t>(bounces) || path.segments.size() == kMaxSegments) return path;
+    ray = exit.surface >= 0 ? trace::reflected_in_wall(scene.prism, ray, exit)
                             : trace::reflected_in_plane(scene.prism, ray, exit.t, exit.surface);
+    const trace::MirrorRect* mirror = trace::mirror_at(scene, {ray.at, ray.z}, exit.surface);
+    if (!mirror) return path;
+    path.throughput = path.throughput * mirror->throughput;
+    if (exit.surface >= 0) path.walls.push_back(static_cast<std::int16_t>(exit.surface));
+    length -= exit.t;
   }
+}
+
+// Whether a path ends at the sample of the lamp. In orbifolds every complete path does, because the room is the quotient of the space by
+// its mirrors: the geodesic to an image folds up into the path to the lamp.
+bool arrives(const LightingContext& lighting, const ShadowPath& path, const LampImage& image, std::size_t sample, double length) {
+  if (!image.path_specific) return true;
+  const Position end = trace::position_at(lighting.scene.prism.space, path.segments.back().ray, path.segments.back().length);
+  const Position& target = lamp_of_image(lighting, image).samples[sample];
+  const geometry::Ambient off = end.floor - target.floor;
+  const double distance = std::fabs(off.x) + std::fabs(off.y) + std::fabs(off.w) + std::fabs(end.z - target.z);
+  return distance <= kArrivalTolerance * (1 + std::fabs(target.floor.w)) + 1e-7 * length &&
+         std::equal(path.walls.begin(), path.walls.end(), image.walls.begin(), image.walls.end());
+}
+
+bool is_blocked_by_triangles(const LightingContext& lighting, const ShadowPath& path) {
+  return std::any_of(path.segments.begin(), path.segments.end(), [&](const ShadowSegment& segment) {
+    // Where no triangle reaches out of the room, a segment that ends at a wall need not be told where.
+    const bool needs_end = !(segment.ends_at_wall && lighting.scene.all_inside);
+    return trace::occluded(lighting.scene, segment.ray, needs_end ? segment.length : trace::kInfinity);
+  });
 }
 
 }  // namespace
@@ -113,21 +139,18 @@ Connection connect(Space space, const Position& from, const Position& to, int sh
 
 Color shadow_transmittance(const LightingContext& lighting, const LampImage& image, std::size_t sample, const surface::ShadingPoint& point,
                            const Connection& connection) {
-  const Space space = lighting.scene.prism.space;
   const trace::Ray ray = spawn_ray(lighting, point, connection.direction);
   const ShadowPath path = reflected_path(lighting.scene, ray, connection.length * (1 - 1e-9), lighting.options.bounces);
-  if (!path.complete) return {};
-  const auto last = static_cast<std::size_t>(path.segments - 1);
-  const Position end = trace::position_at(space, path.rays[last], path.lengths[last]);
-  const Position& target = lamp_of_image(lighting, image).samples[sample];
-  const geometry::Ambient off = end.floor - target.floor;
-  const double distance = std::fabs(off.x) + std::fabs(off.y) + std::fabs(off.w) + std::fabs(end.z - target.z);
-  if (distance > kArrivalTolerance * (1 + std::fabs(target.floor.w)) + 1e-7 * connection.length) return {};
-  if (image.path_specific && !std::equal(path.walls.begin(), path.walls.begin() + path.wall_count, image.walls.begin(), image.walls.end()))
-    return {};
-  for (std::size_t i = 0; i <= last; ++i)
-    if (trace::occluded(lighting.scene, path.rays[i], path.lengths[i])) return {};
-  return path.throughput;
+  if (!path.complete || !arrives(lighting, path, image, sample, connection.length)) return {};
+  return is_blocked_by_triangles(lighting, path) ? Color{} : path.throughput;
+}
+
+bool is_unobstructed(const LightingContext& lighting, const surface::ShadingPoint& point, const Connection& connection, int bounces,
+                     double clearance) {
+  trace::Ray ray = spawn_ray(lighting, point, connection.direction);
+  ray.t_min = std::max(ray.t_min, clearance);
+  const ShadowPath path = reflected_path(lighting.scene, ray, connection.length * (1 - 1e-9), bounces);
+  return path.complete && !is_blocked_by_triangles(lighting, path);
 }
 
 double unoccluded_irradiance(const LightingContext& lighting, const LampImage& image, std::size_t sample,

@@ -18,6 +18,11 @@ struct Connection {
 [[nodiscard]] scene::Color shadow_transmittance(const LightingContext& lighting, const LampImage& image, std::size_t sample,
                                                 const surface::ShadingPoint& point, const Connection& connection);
 
+/// Whether the geodesic of a connection reaches its end over at most `bounces` mirrors, past all objects farther than `clearance` from the
+/// point. Levels of detail lie beside the surface that they stand for, and would hide their own points.
+[[nodiscard]] bool is_unobstructed(const LightingContext& lighting, const surface::ShadingPoint& point, const Connection& connection,
+                                   int bounces, double clearance = 0);
+
 /// The irradiance per unit of power on a surface across the connection if nothing blocked it: falloff times angular intensity.
 [[nodiscard]] double unoccluded_irradiance(const LightingContext& lighting, const LampImage& image, std::size_t sample,
                                            const surface::ShadingPoint& point, const Connection& connection);

@@ -3,6 +3,7 @@
 #include "compiler/trace/analytic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +15,24 @@ namespace orbc::trace {
 using geometry::Point;
 using geometry::Space;
 
-Exit exit_of(const Prism& prism, const Ray& ray) {
+namespace {
+
+/// A lower bound of atanh x: the first terms of its series, all of which are positive.
+double atanh_from_below(double x) {
+  const double y = x * x;
+  return x * (1 + y * (1.0 / 3 + y * (1.0 / 5 + y * (1.0 / 7))));
+}
+
+/// The arc whose cotκ is given.
+double arc_of_cot(Space space, double cot) {
+  if (space == Space::euclidean) return 1 / cot;
+  if (space == Space::spherical) return std::fabs(cot) == kInfinity ? (cot > 0 ? 0 : std::numbers::pi) : arc_of_circle(cot, 1);
+  return cot == kInfinity ? 0 : 0.5 * math::log((cot + 1) / (cot - 1));
+}
+
+}  // namespace
+
+Exit exit_of(const Prism& prism, const Ray& ray, double within) {
   Exit exit;
   const Space space = prism.space;
   if (ray.c > 0) {
@@ -31,12 +49,8 @@ Exit exit_of(const Prism& prism, const Ray& ray) {
       }
     }
     if (first >= 0) {
-      const double s = space == Space::spherical
-                           ? std::fabs(largest) == kInfinity ? (largest > 0 ? 0 : std::numbers::pi) : arc_of_circle(largest, 1)
-                       : space == Space::euclidean ? 1 / largest
-                       : largest == kInfinity      ? 0
-                                                   : 0.5 * math::log((largest + 1) / (largest - 1));
-      exit = {s / ray.c, first};
+      const bool beyond = space == Space::hyperbolic && within < kInfinity && atanh_from_below(1 / largest) > 1.000001 * ray.c * within;
+      exit = {beyond ? kInfinity : arc_of_cot(space, largest) / ray.c, first, largest};
     }
   }
   if (ray.m != 0) {
@@ -53,6 +67,12 @@ struct PointAndDirection {
   geometry::Ambient at, along;
 };
 
+/// In: cosκ and sinκ of the arc.
+PointAndDirection step(Space space, const Ray& ray, double cosine, double sine) {
+  const geometry::Ambient p = ray.at, v = ray.along;
+  return {cosine * p + sine * v, (-geometry::curvature(space) * sine) * p + cosine * v};
+}
+
 PointAndDirection step_along(Space space, const Ray& ray, double s) {
   double cosine = 1, sine = s;
   if (space == Space::spherical) {
@@ -64,8 +84,15 @@ PointAndDirection step_along(Space space, const Ray& ray, double s) {
     cosine = 0.5 * (e + 1 / e);
     sine = 0.5 * (e - 1 / e);
   }
-  const geometry::Ambient p = ray.at, v = ray.along;
-  return {cosine * p + sine * v, (-geometry::curvature(space) * sine) * p + cosine * v};
+  return step(space, ray, cosine, sine);
+}
+
+/// The same by cotκ of the arc: sinκ = 1/√(cotκ² + κ).
+PointAndDirection step_by_cot(Space space, const Ray& ray, double cot) {
+  if (std::fabs(cot) == kInfinity) return step(space, ray, cot > 0 ? 1 : -1, 0);
+  if (space == Space::euclidean) return step(space, ray, 1, 1 / cot);
+  const double sine = 1 / std::sqrt(space == Space::spherical ? 1 + cot * cot : (cot - 1) * (cot + 1));
+  return step(space, ray, cot * sine, sine);
 }
 
 /// Sets the ray's start to (P, V), projected: P onto the space, V onto the unit tangents at P. H²: the form |V|² = (|V_xy|² + (P ×
@@ -91,21 +118,29 @@ void reproject(Space space, const PointAndDirection& from, Ray& ray) {
   }
 }
 
-}  // namespace
-
-Ray reflected_in_wall(const Prism& prism, const Ray& ray, double t, int wall) {
-  const geometry::Line& n = prism.walls[wall].line;
-  PointAndDirection moved = step_along(prism.space, ray, ray.c * t);
+/// In: point and direction where the ray has reached the wall.
+Ray reflected_at(const Prism& prism, const Ray& ray, const Exit& exit, PointAndDirection moved) {
+  const geometry::Line& n = prism.walls[exit.surface].line;
   // The point is projected onto the wall's line and the direction reflected, so that neither the distance from the wall nor ⟨P, P⟩ drifts.
   const geometry::Ambient normal{geometry::curvature(prism.space) * n.w, n.x, n.y};
   moved.at = moved.at - geometry::value_at(n, moved.at) * normal;
   moved.along = moved.along - (2 * geometry::value_at(n, moved.along)) * normal;
   Ray out = ray;
   reproject(prism.space, moved, out);
-  out.z = ray.z + ray.m * t;
+  out.z = ray.z + ray.m * exit.t;
   out.t_min = 0;
-  out.start_wall = wall;
+  out.start_wall = exit.surface;
   return out;
+}
+
+}  // namespace
+
+Ray reflected_in_wall(const Prism& prism, const Ray& ray, double t, int wall) {
+  return reflected_at(prism, ray, {t, wall}, step_along(prism.space, ray, ray.c * t));
+}
+
+Ray reflected_in_wall(const Prism& prism, const Ray& ray, const Exit& exit) {
+  return reflected_at(prism, ray, exit, step_by_cot(prism.space, ray, exit.cot_arc));
 }
 
 Ray reflected_in_plane(const Prism& prism, const Ray& ray, double t, int surface) {
@@ -118,12 +153,26 @@ Ray reflected_in_plane(const Prism& prism, const Ray& ray, double t, int surface
   return out;
 }
 
-double arc_on_wall(Space space, const room::Wall& wall, const Point& x) {
+namespace {
+
+/// cosκ and sinκ of the arc along the wall, times the cosκ of the distance from it. In: no E².
+std::array<double, 2> coordinates_on_wall(Space space, const room::Wall& wall, const Point& x) {
   const double k = geometry::curvature(space);
+  return {wall.start.w * x.w + k * (wall.start.x * x.x + wall.start.y * x.y),
+          k * wall.along.w * x.w + wall.along.x * x.x + wall.along.y * x.y};
+}
+
+}  // namespace
+
+double tan_on_wall(Space space, const room::Wall& wall, const Point& x) {
   if (space == Space::euclidean) return (x.x - wall.start.x) * wall.along.x + (x.y - wall.start.y) * wall.along.y;
-  const double p = wall.start.w * x.w + k * (wall.start.x * x.x + wall.start.y * x.y);
-  const double v = k * wall.along.w * x.w + wall.along.x * x.x + wall.along.y * x.y;
-  if (space == Space::hyperbolic) return math::atanh(v / p);
+  const auto [p, v] = coordinates_on_wall(space, wall, x);
+  return v / p;
+}
+
+double arc_on_wall(Space space, const room::Wall& wall, const Point& x) {
+  if (space != Space::spherical) return geometry::atan_k(space, tan_on_wall(space, wall, x));
+  const auto [p, v] = coordinates_on_wall(space, wall, x);
   const double s = math::atan2(v, p);
   return s < 0 && wall.length > std::numbers::pi + 1e-6 ? s + 2 * std::numbers::pi : s;
 }

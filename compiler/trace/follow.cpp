@@ -50,15 +50,25 @@ bool advance_path(const TraceScene& scene, const FollowOptions& options, const H
 }  // namespace
 
 const MirrorRect* mirror_at(const TraceScene& scene, const Ray& ray, double t, int surface) {
+  const bool is_everywhere = surface < 0 || (!scene.mirrors[static_cast<std::size_t>(surface)].empty() &&
+                                             scene.mirrors[static_cast<std::size_t>(surface)].front().covers_surface);
+  return mirror_at(scene, is_everywhere ? geometry::Position{} : position_at(scene.prism.space, ray, t), surface);
+}
+
+const MirrorRect* mirror_at(const TraceScene& scene, const geometry::Position& at, int surface) {
   if (surface == kFloor) return scene.floor_mirror ? &*scene.floor_mirror : nullptr;
   if (surface == kCeiling) return scene.ceiling_mirror ? &*scene.ceiling_mirror : nullptr;
   const auto& areas = scene.mirrors[static_cast<std::size_t>(surface)];
   if (areas.empty()) return nullptr;
   if (areas.front().covers_surface) return &areas.front();
-  const auto at = position_at(scene.prism.space, ray, t);
-  const double s = arc_on_wall(scene.prism.space, scene.prism.walls[static_cast<std::size_t>(surface)], at.floor);
-  for (const MirrorRect& area : areas)
-    if (s >= area.span[0] && s <= area.span[1] && at.z >= area.height[0] && at.z <= area.height[1]) return &area;
+  const geometry::Space space = scene.prism.space;
+  const room::Wall& wall = scene.prism.walls[static_cast<std::size_t>(surface)];
+  const bool is_round = space == geometry::Space::spherical;  // else lengths are compared by their tanκ, which increases with them
+  const double s = is_round ? arc_on_wall(space, wall, at.floor) : tan_on_wall(space, wall, at.floor);
+  for (const MirrorRect& area : areas) {
+    const double* span = is_round ? area.span : area.tan_span;
+    if (s >= span[0] && s <= span[1] && at.z >= area.height[0] && at.z <= area.height[1]) return &area;
+  }
   return nullptr;
 }
 

@@ -40,6 +40,8 @@ struct Path {
 
 /// The mirror that a ray hits at path length t on a surface of the prism (wall from 0, kFloor, kCeiling), or nullptr where it is plain.
 [[nodiscard]] const MirrorRect* mirror_at(const TraceScene& scene, const Ray& ray, double t, int surface);
+/// The same where the point of the surface is known.
+[[nodiscard]] const MirrorRect* mirror_at(const TraceScene& scene, const geometry::Position& at, int surface);
 
 /// The surface at a hit point.
 struct SurfacePoint {

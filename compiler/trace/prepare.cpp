@@ -15,7 +15,7 @@ namespace {
 /// A mirror that ends within this of the wall's end reaches the end: its lengths were computed, not copied.
 constexpr double kEndTolerance = 1e-9;
 
-MirrorRect mirror_rect(const place::PlacedMirror& mirror, int index, double length, double height) {
+MirrorRect mirror_rect(geometry::Space space, const place::PlacedMirror& mirror, int index, double length, double height) {
   MirrorRect area;
   area.mirror = index;
   area.throughput = mirror.throughput;
@@ -28,19 +28,21 @@ MirrorRect mirror_rect(const place::PlacedMirror& mirror, int index, double leng
   if (mirror.span[1] < length - kEndTolerance) area.span[1] = mirror.span[1];
   if (mirror.height[0] > kEndTolerance) area.height[0] = mirror.height[0];
   if (mirror.height[1] < height - kEndTolerance) area.height[1] = mirror.height[1];
+  for (int i = 0; i < 2; ++i) area.tan_span[i] = std::fabs(area.span[i]) == kInfinity ? area.span[i] : geometry::tan_k(space, area.span[i]);
   area.covers_surface =
       area.span[0] == -kInfinity && area.span[1] == kInfinity && area.height[0] == -kInfinity && area.height[1] == kInfinity;
   return area;
 }
 
 void add_mirrors(TraceScene& scene) {
+  const geometry::Space space = scene.prism.space;
   scene.mirrors.resize(scene.prism.walls.size());
   for (int i = 0; i < static_cast<int>(scene.interior->mirrors.size()); ++i) {
     const place::PlacedMirror& mirror = scene.interior->mirrors[i];
-    if (mirror.wall == kFloor) scene.floor_mirror = mirror_rect(mirror, i, 0, 0);
-    if (mirror.wall == kCeiling) scene.ceiling_mirror = mirror_rect(mirror, i, 0, 0);
+    if (mirror.wall == kFloor) scene.floor_mirror = mirror_rect(space, mirror, i, 0, 0);
+    if (mirror.wall == kCeiling) scene.ceiling_mirror = mirror_rect(space, mirror, i, 0, 0);
     if (mirror.wall >= 0)
-      scene.mirrors[mirror.wall].push_back(mirror_rect(mirror, i, scene.prism.walls[mirror.wall].length, scene.prism.height));
+      scene.mirrors[mirror.wall].push_back(mirror_rect(space, mirror, i, scene.prism.walls[mirror.wall].length, scene.prism.height));
   }
 }
 

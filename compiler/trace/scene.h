@@ -18,10 +18,11 @@ class Bvh;
 struct MirrorRect {
   double span[2] = {-kInfinity, kInfinity};  ///< arc length along the wall
   double height[2] = {-kInfinity, kInfinity};
-  bool covers_surface = false;  ///< the mirror covers all of its wall, floor or ceiling
-  scene::Color throughput;      ///< reflectance × tint
-  scene::Color emission;        ///< radiance that the mirror emits itself
-  int mirror = -1;              ///< index into Interior::mirrors
+  double tan_span[2] = {-kInfinity, kInfinity};  ///< in E² and H²: tanκ of `span`
+  bool covers_surface = false;                   ///< the mirror covers all of its wall, floor or ceiling
+  scene::Color throughput;                       ///< reflectance × tint
+  scene::Color emission;                         ///< radiance that the mirror emits itself
+  int mirror = -1;                               ///< index into Interior::mirrors
 };
 
 /// The style of a wall, the floor or the ceiling where it is no mirror.

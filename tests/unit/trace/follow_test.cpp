@@ -145,6 +145,34 @@ TEST_CASE("a ray that starts on a wall, rounded to either side of it, and points
   }
 }
 
+TEST_CASE("the cotangent of the arc to a wall reflects a ray where its length does, and on the same mirror", "[trace]") {
+  for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
+                             furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(hemisphere()), furnished(lune(2))}) {
+    const TraceScene scene = prepare(placed);
+    const Space space = scene.prism.space;
+    Random random{5};
+    int walls = 0;
+    for (int i = 0; i < 300; ++i) {
+      const double turn = random.between(0, 2 * kPi);
+      const Ray ray = ray_from(space, {{}, random.between(0.2, 0.8) * scene.prism.height},
+                               {{0, std::cos(turn), std::sin(turn)}, random.between(-0.3, 0.3)});
+      const Exit exit = exit_of(scene.prism, ray);
+      if (exit.surface < 0) continue;
+      ++walls;
+      const Ray by_length = reflected_in_wall(scene.prism, ray, exit.t, exit.surface), by_cot = reflected_in_wall(scene.prism, ray, exit);
+      const Ambient apart = by_length.at - by_cot.at, turned = by_length.along - by_cot.along;
+      CHECK(std::fabs(apart.w) + std::fabs(apart.x) + std::fabs(apart.y) < 1e-13);
+      CHECK(std::fabs(turned.w) + std::fabs(turned.x) + std::fabs(turned.y) < 1e-13);
+      CHECK(by_length.z == by_cot.z);
+      CHECK(mirror_at(scene, ray, exit.t, exit.surface) == mirror_at(scene, {by_cot.at, by_cot.z}, exit.surface));
+      // A ray that stays inside up to a length need not tell where it leaves, but never claims to stay when it does not.
+      CHECK(exit_of(scene.prism, ray, 0.999 * exit.t).t >= exit.t);
+      CHECK(exit_of(scene.prism, ray, 1.001 * exit.t).t == exit.t);
+    }
+    CHECK(walls > 100);
+  }
+}
+
 TEST_CASE("vertical rays, rays in a wall and rays in an edge of the room find their way", "[trace]") {
   for (const auto& placed : {furnished(regular_room(Space::spherical, 3, 2)), furnished(regular_room(Space::euclidean, 4, 2)),
                              furnished(regular_room(Space::hyperbolic, 5, 2)), furnished(hemisphere()), furnished(lune(2))}) {
