@@ -10,6 +10,7 @@ AdaptiveGrid spread_samples(const GridLevels& levels, const std::vector<GridSamp
   grid.height = levels.height();
   grid.color.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
   grid.excluded.assign(grid.color.size(), 0);
+  grid.rough.assign(grid.color.size(), 0);
   grid.sampled = coarse_step(levels);
   std::size_t next = 0;
   for (int j = 0; j < grid.height; j += grid.sampled.v)

@@ -47,6 +47,7 @@ struct RefinementLimits {
   double max_step = 0;  ///< between two opposite neighbours
   double tolerance =
       0;  ///< between a sample and the interpolated value: beyond it the neighbourhood is rough, and sampled at the next step
+  double rough_tolerance = 0;  ///< the same beyond which a point counts as AdaptiveGrid::rough
 };
 
 /// Colours at the points of a grid, row by row.
@@ -62,6 +63,7 @@ struct ColorGrid {
 /// All points of the finest grid.
 struct AdaptiveGrid : ColorGrid {
   std::vector<std::uint8_t> excluded;  ///< 1: as GridSample::excluded
+  std::vector<std::uint8_t> rough;     ///< 1: at the finest step this point was not what its neighbours let expect
   GridStep sampled;                    ///< the smallest step at which a point was sampled: between them all points are interpolated
 };
 
@@ -121,6 +123,13 @@ template <class Sampler>
   return samples;
 }
 
+/// A new point. Samplers that want to know the points between which it lies have sample(const GridPoint&, const GridParents&).
+template <class Sampler>
+[[nodiscard]] GridSample sample_between(Sampler& sampler, const GridPoint& at, const GridParents& parents) {
+  if constexpr (requires { sampler.sample(at, parents); }) return sampler.sample(at, parents);
+  else return sampler.sample(at);
+}
+
 /// The finest grid with the coarse samples in their places, all other points black.
 [[nodiscard]] AdaptiveGrid spread_samples(const GridLevels& levels, const std::vector<GridSample>& coarse);
 
@@ -135,6 +144,7 @@ template <class Sampler>
   GridStep from = coarse_step(levels);
   while (from.u > 1 || from.v > 1) {
     const GridStep to{std::max(1, from.u / 2), std::max(1, from.v / 2)};
+    const bool is_finest = to.u == 1 && to.v == 1;
     std::vector<std::uint8_t> next_rough(rough.size(), 0);
     for (int j = 0; j < grid.height; j += to.v)
       for (int i = 0; i < grid.width; i += to.u) {
@@ -143,9 +153,11 @@ template <class Sampler>
         const GridParents parents = parents_of(grid, patch, i, j, from);
         GridSample value = interpolate(grid, parents);
         if (needs_sample(grid, parents, rough, limits.max_step, sampler)) {
-          const GridSample sample = sampler.sample({i, j, grid.width, grid.height});
+          const GridSample sample = sample_between(sampler, {i, j, grid.width, grid.height}, parents);
           grid.sampled = to;
-          if (!sample.excluded && sampler.difference(sample.color, value.color) > limits.tolerance) {
+          const double off = sample.excluded ? 0 : sampler.difference(sample.color, value.color);
+          if (is_finest) grid.rough[at] = off > limits.rough_tolerance;
+          if (off > limits.tolerance) {
             next_rough[at] = 1;
             for (std::size_t k = 0; k < parents.count; ++k) next_rough[parents.index[k]] = 1;
           }

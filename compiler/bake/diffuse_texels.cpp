@@ -51,10 +51,11 @@ LitRoom light_room(const RoomBake& bake, const Executor& executor, const Progres
     const BakePart part{interior, lighting, bake.options, interior.parts[p], *lit.normals[p], is_lod(lighting, p) ? &base : nullptr};
     const VertexLight vertices = light_vertices(part, executor, progress);
     lit.lit_points += vertices.lit_points;
+    const CornerLight corners = corner_light(part, vertices);
     const std::vector<TexelPatch>& patches = bake.patches[p];
     std::atomic<std::uint64_t> done{0};
     executor(patches.size(), [&](std::size_t i) {
-      lit.direct[lit.first[p] + i] = bake_direct(part, vertices, patches[i]);
+      lit.direct[lit.first[p] + i] = bake_direct(part, corners, patches[i]).irradiance;
       report(progress, "baking", done.fetch_add(1), patches.size(), "blocks");
     });
   }

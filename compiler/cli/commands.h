@@ -91,6 +91,7 @@ struct RenderArguments {
   std::string engine = "tracer";
   int samples = 0;                  ///< per pixel; 0 = 4 for a picture to be looked at, 1 for other passes, which want the pixel's centre
   std::string pass = "color";       ///< tracer: what to draw
+  bool exact = false;               ///< tracer: light every sample by itself
 };
 
 struct VerifyArguments {

@@ -12,6 +12,12 @@ void add_samples(CLI::App& command, RenderArguments& a) {
       ->type_name("N");
 }
 
+void add_exact(CLI::App& command, RenderArguments& a) {
+  command.add_flag("--exact", a.exact,
+                   "Tracer: light every sample by itself, as verify does; else matte light is interpolated between points of the surfaces "
+                   "wherever it is smooth");
+}
+
 }  // namespace
 
 void define_render(Program& program) {
@@ -29,6 +35,7 @@ void define_render(Program& program) {
   add_samples(*c, a);
   c->add_option("--pass", a.pass, "Tracer: what to draw; an .exr holds all of them")->capture_default_str()
       ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
+  add_exact(*c, a);
   add_compile_options(*c, a.compile);
   c->footer(
       "Examples:\n  orbc render s.yaml -o s.png\n  orbc render s.yaml -o s.png --engine povray --samples 9\n  orbc render s.yaml -o "
@@ -51,6 +58,7 @@ void define_trace(Program& program) {
   add_samples(*c, a);
   c->add_option("--pass", a.pass, "What to draw; an .exr holds all of them")->capture_default_str()
       ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
+  add_exact(*c, a);
   c->footer(
       "Examples:\n  orbc trace s.yaml -o s.png --samples 16\n  orbc trace s.yaml -o s.exr\n  orbc trace s.yaml -o depth.png --pass depth");
   add_common(*c, program.common);

@@ -95,8 +95,8 @@ int render_elsewhere(const driver::PreparedScene& scene, const RenderArguments& 
 
 int render_here(const driver::PreparedScene& scene, const RenderArguments& a, PictureFormat format, const Common& common) {
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  const render::Film film =
-      driver::trace_film(scene, scene.loaded().eye, {a.samples}, driver::parallel_executor(common.threads), bar.progress());
+  const render::Film film = driver::trace_film(scene, scene.loaded().eye, {.samples = a.samples, .exact = a.exact},
+                                               driver::parallel_executor(common.threads), bar.progress());
   write_output(a.compile.output, format == PictureFormat::exr
                                      ? image_io::encode_exr(render::to_float_image(film))
                                      : encoded(render::to_image(film, pass_of(a.pass), scene.scene().exposure), format));

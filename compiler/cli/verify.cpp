@@ -160,8 +160,8 @@ int verify(const VerifyArguments& a, const Common& common) {
   const scene::BakeQuality path_quality = loaded->scene.bake.quality;
   if (a.compile.scene.quality.empty()) loaded->scene.bake.quality = scene::BakeQuality::fine;
   const driver::PreparedScene scene(*loaded, prepare_options(a.compile));
-  const render::Film film =
-      driver::trace_film(scene, loaded->eye, {a.samples, path_quality}, driver::parallel_executor(common.threads), bar.progress());
+  const render::Film film = driver::trace_film(scene, loaded->eye, {.samples = a.samples, .exact = true, .path_quality = path_quality},
+                                               driver::parallel_executor(common.threads), bar.progress());
   bar.clear();
   const image::Image reference = render::to_image(film, loaded->scene.exposure);
   std::vector<Verdict> verdicts;

@@ -14,6 +14,9 @@ constexpr double kProxyOffset = 0.004;  // of the room's circumradius: how far a
 // Between these extents a room is baked at the densities of the options. In a tiny room the points of the options would find no shadow, and
 // no picture would hold the points of a huge one.
 constexpr double kMinExtent = 0.5, kMaxExtent = 64;
+// Pixels per radian for which BakeOptions::max_density is meant: 800 pixels across 80°. Borders of shadows would be saws in
+// larger pictures.
+constexpr double kPixelsPerRadian = 480, kMaxPictureFactor = 4;
 
 LoadedScene unlit_scene(const LoadedScene& lit) {
   native_lights::UnlitCopy copy = native_lights::unlit_copy(lit.scene, *lit.interior);
@@ -110,7 +113,7 @@ bake::BakeOptions bake_options(const PreparedScene& scene) {
   const double extent = std::max(scene.interior().polygon.circumradius, scene.interior().height);
   const double factor = extent < kMinExtent ? 1 / extent : extent > kMaxExtent ? kMaxExtent / extent : 1;
   options.min_density *= factor;
-  options.max_density *= factor;
+  options.max_density *= factor * std::clamp(place::pixels_per_radian(scene.loaded().eye) / kPixelsPerRadian, 1.0, kMaxPictureFactor);
   options.texture_density *= factor;
   return options;
 }

@@ -80,7 +80,8 @@ class PreparedScene {
 /// The lighting as the bake uses it: a draft leaves out more of what adds little.
 [[nodiscard]] light::LightingContext baked_lighting(const PreparedScene& scene, const Run& run);
 
-/// Options of the bake: densities are meant for rooms of some units of length, and adapted to much smaller and larger ones.
+/// Options of the bake: densities are meant for rooms of some units of length and for pictures of 800 pixels. They are adapted to much
+/// smaller and larger rooms, and to larger pictures from the scene's own camera.
 [[nodiscard]] bake::BakeOptions bake_options(const PreparedScene& scene);
 
 /// The room with the colors that surfaces without light show.

@@ -1,6 +1,8 @@
 #include "compiler/driver/trace_film.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "compiler/bake/diffuse.h"
 #include "compiler/cutoff/estimate.h"
@@ -14,6 +16,16 @@ constexpr int kBakeSamplesPerPath = 32;
 
 /// Paths of light between surfaces for each sample of a pixel.
 int path_count(const scene::BakeSpec& spec) { return std::max(1, bake::bake_options(spec).radiosity.samples / kBakeSamplesPerPath); }
+
+/// Where light is interpolated only where it is smooth, points at borders of shadows need not be denser than the samples of the picture:
+/// those are lit by themselves.
+bake::BakeOptions cache_options(const PreparedScene& scene, const place::Camera& eye, int samples) {
+  constexpr double kDensityPerPixel = 0.25;  // times pixels per radian, which is their density at distance 1
+  bake::BakeOptions options = bake_options(scene);
+  const double wanted = kDensityPerPixel * place::pixels_per_radian(eye) * std::sqrt(static_cast<double>(samples));
+  options.max_density = std::clamp(wanted, options.min_density, options.max_density);
+  return options;
+}
 
 }  // namespace
 
@@ -47,6 +59,9 @@ render::Film trace_film(const PreparedScene& scene, const place::Camera& eye, co
     spec.quality = *options.path_quality;
     draw.paths = path_count(spec);
   }
+  std::optional<bake::IrradianceCache> irradiance;
+  if (draw.lighting && !options.exact)
+    draw.irradiance = &irradiance.emplace(scene.interior(), *draw.lighting, cache_options(scene, eye, options.samples));
   return in_author_unit(render::draw(scene.trace_context(run).tracer, eye, draw, executor, progress), scene.loaded().unit_of_length);
 }
 

@@ -10,6 +10,7 @@ namespace orbc::driver {
 
 struct TraceOptions {
   int samples = 1;                                   ///< per pixel
+  bool exact = false;                                ///< light every sample of the picture by itself; else matte light is interpolated
   std::optional<scene::BakeQuality> path_quality{};  ///< of light between surfaces; nothing: that of the scene
 };
 

@@ -33,6 +33,7 @@ struct SpecularLobe {
   Color f0;
   double a2 = 0;       ///< α²
   double cos_eye = 0;  ///< > 0
+  double share = 1;    ///< of a pixel
 
   /// D·G₁(eye)/(4·cos_eye), for the cosine of the half vector to the normal. `widening` is added to α².
   [[nodiscard]] double d_times_g1(double cos_half, double widening) const {
@@ -77,7 +78,7 @@ Color visible_highlight(const LightingContext& lighting, const LampImage& image,
   Color total;
   for (const LampSample& sample : samples) total = total + sample.unoccluded;
   const int all = static_cast<int>(samples.size()),
-            rays = std::clamp(static_cast<int>(std::ceil(power * max_channel(total) / count / kMaxShadowStep)), 1, all);
+            rays = std::clamp(static_cast<int>(std::ceil(lobe.share * power * max_channel(total) / count / kMaxShadowStep)), 1, all);
   Color sum, throughput;
   double weights = 0;
   bool agree = true;
@@ -108,7 +109,7 @@ Color image_highlight(const LightingContext& lighting, const LampImage& image, c
     if (light < lighting.options.cull_below) return {};
     const double bound = light * lobe.bound(centre.direction, 1.1 * angular_size, widening(count));
     if (bound < kMinHighlight) return {};
-    if (bound < kMaxShadowStep) count = 1;  // the centre stands for the whole lamp
+    if (lobe.share * bound < kMaxShadowStep) count = 1;  // the centre stands for the whole lamp
   }
   std::vector<LampSample> samples;
   samples.reserve(static_cast<std::size_t>(count));
@@ -128,10 +129,11 @@ Color image_highlight(const LightingContext& lighting, const LampImage& image, c
 }  // namespace
 
 Color highlight(const LightingContext& lighting, const surface::ShadingPoint& point, const Direction& to_eye,
-                const scene::Material& material, const Color& albedo) {
+                const scene::Material& material, const Color& albedo, double share) {
   const Space space = lighting.scene.prism.space;
   const double alpha = surface::ggx_alpha(material);
-  const SpecularLobe lobe{space, point, to_eye, surface::f0(material, albedo), alpha * alpha, trace::inner(space, point.normal, to_eye)};
+  const SpecularLobe lobe{space, point, to_eye, surface::f0(material, albedo), alpha * alpha, trace::inner(space, point.normal, to_eye),
+                          share};
   if (lobe.cos_eye <= 0) return {};
   Color sum;
   for (const std::uint32_t i : images_at(lighting, point.at)) sum = sum + image_highlight(lighting, lighting.lamps->images[i], lobe);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "compiler/light/connection.h"
@@ -67,9 +68,23 @@ SampleBudget sample_budget(double steps, int samples, const SampleStratum& strat
   return {pool, stratum.index / every, 1, static_cast<double>(every)};
 }
 
-/// The irradiance from one image of a lamp.
-Color image_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
-                       const SampleStratum& stratum) {
+/// The irradiance from one image of a lamp, and how the point sees it.
+struct ImageLight {
+  Color irradiance;
+  ImageVisibility visibility;
+};
+
+ImageVisibility visibility_of(const Color& throughput) {
+  return {throughput == Color{} ? Visibility::blocked : Visibility::open,
+          {static_cast<float>(throughput.r), static_cast<float>(throughput.g), static_cast<float>(throughput.b)}};
+}
+ImageVisibility visibility_of(bool samples_agree, int shadow_rays, const Color& throughput) {
+  if (shadow_rays == 0) return {};
+  return samples_agree ? visibility_of(throughput) : ImageVisibility{Visibility::partial, {}};
+}
+
+ImageLight image_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
+                            const SampleStratum& stratum) {
   const LampImage& image = lighting.lamps->images[number];
   const Space space = lighting.scene.prism.space;
   const PlacedLamp& lamp = lamp_of_image(lighting, image);
@@ -109,9 +124,50 @@ Color image_irradiance(const LightingContext& lighting, std::uint32_t number, co
     }
     if (i + 1 == kQuadratureSamples) quadrature = sum;
     if (i + 1 == probes && quadrature_suffices && agree && shadow_rays == probes)
-      return (1.0 / kQuadratureSamples) * (lamp.power * quadrature);
+      return {(1.0 / kQuadratureSamples) * (lamp.power * quadrature), visibility_of(true, shadow_rays, throughput)};
   }
-  return (budget.weight / budget.count) * (lamp.power * sum);
+  return {(budget.weight / budget.count) * (lamp.power * sum), visibility_of(agree, shadow_rays, throughput)};
+}
+
+/// The irradiance per unit of power from an image that is wholly open. Strata take one sample of the quadrature each.
+double open_irradiance(const LightingContext& lighting, const LampImage& image, const surface::ShadingPoint& point, double length,
+                       const SampleStratum& stratum) {
+  const Space space = lighting.scene.prism.space;
+  const int all = std::max(1, static_cast<int>(image.samples.size()) - 1);
+  int count = lamp_of_image(lighting, image).extent < kMaxQuadratureExtent * length ? std::min(kQuadratureSamples, all) : all, first = 0;
+  if (stratum.count >= kQuadratureSamples && count == kQuadratureSamples) {
+    first = stratum.index % count;
+    count = 1;
+  }
+  double light = 0;
+  for (int i = first; i < first + count; ++i) {
+    const auto sample = static_cast<std::size_t>(image.samples.size() == 1 ? 0 : i + 1);
+    const Connection connection = connect(space, point.ray_origin, image.samples[sample], image.sheet);
+    const double cosine = connection.valid ? trace::inner(space, connection.direction, point.normal) : 0;
+    if (cosine > 0) light += cosine * unoccluded_irradiance(lighting, image, sample, point, connection);
+  }
+  return light / count;
+}
+
+/// The irradiance from an image that is expected to be open or blocked. Nothing if a part of it is below the horizon, or if a shadow ray to
+/// its centre tells otherwise. In: whether to trace that ray.
+std::optional<ImageLight> expected_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
+                                              const ImageVisibility& expected, bool check, const SampleStratum& stratum) {
+  if (expected.kind != Visibility::open && expected.kind != Visibility::blocked) return std::nullopt;
+  const LampImage& image = lighting.lamps->images[number];
+  const Space space = lighting.scene.prism.space;
+  const PlacedLamp& lamp = lamp_of_image(lighting, image);
+  const Connection centre = connect(space, point.ray_origin, image.samples[0], image.sheet);
+  if (!centre.valid || centre.length <= 2 * lamp.extent) return std::nullopt;
+  if (trace::inner(space, centre.direction, point.normal) <= 2 * lamp.extent / centre.length) return std::nullopt;
+  if (image_bound(lighting, image, centre.length, centre.arc) < lighting.options.cull_below) return ImageLight{};
+  Color throughput{static_cast<double>(expected.throughput[0]), static_cast<double>(expected.throughput[1]),
+                   static_cast<double>(expected.throughput[2])};
+  if (check) throughput = shadow_transmittance(lighting, image, 0, point, centre);
+  const ImageVisibility seen = visibility_of(throughput);
+  if (seen.kind != expected.kind) return std::nullopt;
+  if (seen.kind == Visibility::blocked) return ImageLight{{}, seen};
+  return ImageLight{open_irradiance(lighting, image, point, centre.length, stratum) * (lamp.power * throughput), seen};
 }
 
 Result<LampSet> with_images(const scene::Scene& scene, const place::Interior& interior, PlacedLamps placed, const LightOptions& options) {
@@ -184,13 +240,38 @@ Result<LightingContext> prepare_light(const scene::Scene& scene, const place::In
 
 Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const SampleStratum& stratum) {
   Color sum;
-  for (const std::uint32_t i : images_at(lighting, point.at)) sum = sum + image_irradiance(lighting, i, point, stratum);
+  for (const std::uint32_t i : images_at(lighting, point.at)) sum = sum + image_irradiance(lighting, i, point, stratum).irradiance;
   return sum;
 }
 
 Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const std::vector<std::uint32_t>& images) {
   Color sum;
-  for (const std::uint32_t i : images) sum = sum + image_irradiance(lighting, i, point, {});
+  for (const std::uint32_t i : images) sum = sum + image_irradiance(lighting, i, point, {}).irradiance;
+  return sum;
+}
+
+VisibleIrradiance irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const ExpectedImages& expected,
+                             const SampleStratum& stratum) {
+  constexpr std::uint32_t kCheckOneIn = 4;
+  const std::size_t count = expected.images.size();
+  std::vector<std::optional<ImageLight>> found(count);
+  bool check_all = false;
+  if (!expected.visibility.empty()) {
+    for (std::size_t k = (kCheckOneIn - expected.phase % kCheckOneIn) % kCheckOneIn; k < count; k += kCheckOneIn) {
+      const ImageVisibility& kind = expected.visibility[k];
+      found[k] = expected_irradiance(lighting, expected.images[k], point, kind, true, stratum);
+      check_all = check_all || (!found[k] && (kind.kind == Visibility::open || kind.kind == Visibility::blocked));
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      if (!found[k]) found[k] = expected_irradiance(lighting, expected.images[k], point, expected.visibility[k], check_all, stratum);
+  }
+  VisibleIrradiance sum;
+  sum.visibility.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ImageLight light = found[k] ? *found[k] : image_irradiance(lighting, expected.images[k], point, stratum);
+    sum.irradiance = sum.irradiance + light.irradiance;
+    sum.visibility.push_back(light.visibility);
+  }
   return sum;
 }
 

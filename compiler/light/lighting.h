@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -75,6 +77,32 @@ struct SampleStratum {
 /// The same from some of the images.
 [[nodiscard]] scene::Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
                                       const std::vector<std::uint32_t>& images);
+/// How much of a lamp's image a point sees. `unknown` where it was not asked, as below the horizon.
+enum class Visibility : std::uint8_t { unknown, blocked, open, partial };
+/// The same with the throughput of the mirrors on the path, if it is open.
+struct ImageVisibility {
+  Visibility kind = Visibility::unknown;
+  std::array<float, 3> throughput{};
+  bool operator==(const ImageVisibility&) const = default;
+};
+/// Irradiance, and how each image is seen, for neighbouring points.
+struct VisibleIrradiance {
+  scene::Color irradiance;
+  std::vector<ImageVisibility> visibility;  ///< parallel to the images
+};
+/// What neighbouring points tell of the images at a point.
+struct ExpectedImages {
+  const std::vector<std::uint32_t>& images;
+  const std::vector<ImageVisibility>& visibility;  ///< parallel to `images`, or empty
+  std::uint32_t phase = 0;  ///< chooses the images that are checked: points near each other should have different ones
+};
+/// The same where neighbouring points tell how images are seen.
+/// Makes: images expected to be open or blocked are taken for that. One in four is checked by a shadow ray to its centre; if any check
+///        tells otherwise, all are checked. Where a check fails, or where `partial` or `unknown` is expected, an image is sampled as a
+///        whole.
+/// Error: borders of shadows that no check meets are missed.
+[[nodiscard]] VisibleIrradiance irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
+                                           const ExpectedImages& expected, const SampleStratum& stratum = {});
 /// Indices of the images that may matter at points within `radius` of a position. In: `share` of LightOptions::cull_below that matters.
 [[nodiscard]] std::vector<std::uint32_t> images_within(const LightingContext& lighting, const geometry::Position& centre, double radius,
                                                        double share = 1);
@@ -97,8 +125,9 @@ struct SampleStratum {
 
 /// The radiance that a glossy or metal surface reflects specularly from the lamps towards the eye. The room in metals is not part of it.
 /// Formula: GGX (surface/ggx.h) with α = roughness². Lamps with an extent are sums over their samples.
-/// Error:   highlights below 1/3000 of white are left out; their shadows have steps of up to 1/400 of white.
+/// In:      `share` of a pixel that the highlight is part of, at most 1: with less, lamps have fewer samples.
+/// Error:   highlights below 1/3000 of white are left out; their shadows have steps of up to 1/400 of white in the pixel.
 [[nodiscard]] scene::Color highlight(const LightingContext& lighting, const surface::ShadingPoint& point, const trace::Direction& to_eye,
-                                     const scene::Material& material, const scene::Color& albedo);
+                                     const scene::Material& material, const scene::Color& albedo, double share = 1);
 
 }  // namespace orbc::light

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "compiler/render/lens.h"
 #include "compiler/render/radiance.h"
@@ -60,7 +61,7 @@ struct PixelSums {
     const auto variance = [&](double sum, double all, double bound) { return all >= bound ? 0 : sum / (count * (count - 1)); };
     return static_cast<float>(
         std::sqrt(scene::max_channel({variance(squares.r, radiance.r, white_bound.r), variance(squares.g, radiance.g, white_bound.g),
-                                  variance(squares.b, radiance.b, white_bound.b)})));
+                                      variance(squares.b, radiance.b, white_bound.b)})));
   }
 };
 
@@ -121,6 +122,14 @@ void draw_pixels(const trace::TraceScene& scene, const place::Camera& eye, const
   }
 }
 
+/// The tile to be drawn as the k-th of `count`. They come from all over the picture, so that what was drawn so far tells how long the rest
+/// will take. In: k < count.
+std::size_t scattered_tile(std::size_t k, std::size_t count) {
+  auto stride = static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(count)) + 1;
+  while (std::gcd(stride, count) != 1) ++stride;
+  return k * stride % count;
+}
+
 }  // namespace
 
 trace::Ray eye_ray(const place::Camera& eye, double x, double y) { return eye_ray_from(eye, eye.room_from_eye * geometry::Point(), x, y); }
@@ -146,7 +155,9 @@ Film draw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOp
   const int columns = (eye.width + kTileSide - 1) / kTileSide, rows = (eye.height + kTileSide - 1) / kTileSide;
   const std::uint64_t total = static_cast<std::uint64_t>(eye.width) * static_cast<std::uint64_t>(eye.height) * samples.size();
   std::atomic<std::uint64_t> done{0};
-  executor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t tile) {
+  const std::size_t tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  executor(tiles, [&](std::size_t k) {
+    const std::size_t tile = scattered_tile(k, tiles);
     const int x0 = static_cast<int>(tile % static_cast<std::size_t>(columns)) * kTileSide,
               y0 = static_cast<int>(tile / static_cast<std::size_t>(columns)) * kTileSide;
     const int x1 = std::min(x0 + kTileSide, eye.width), y1 = std::min(y0 + kTileSide, eye.height);

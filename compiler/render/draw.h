@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "compiler/bake/baked_light.h"
+#include "compiler/bake/irradiance_cache.h"
 #include "compiler/base/executor.h"
 #include "compiler/base/progress.h"
 #include "compiler/light/lighting.h"
@@ -12,15 +13,16 @@
 namespace orbc::render {
 
 struct DrawOptions {
-  int samples = 1;                                   ///< per pixel: 1 is the centre, n² a regular grid, other numbers a rank-1 lattice
-  int max_bounces = 12;                              ///< mirrors of the room on one path
-  double min_weight = 0;                             ///< throughput below which a path is cut off
-  int max_depth = 16;                                ///< mirror, glass and metal objects on one path
-  int specular_samples = 256;                        ///< most directions sampled for the room in a rough metal, by all samples of a pixel
-  int paths = 8;                                     ///< `integrator: path`: paths of indirect light per sample
-  const light::LightingContext* lighting = nullptr;  ///< of this room; null: scenes without lamps, where surfaces show their albedo
-  const bake::BakedLight* baked = nullptr;           ///< if given, matte light is looked up here
-  scene::Color background;                           ///< radiance where a path is cut off
+  int samples = 1;                                    ///< per pixel: 1 is the centre, n² a regular grid, other numbers a rank-1 lattice
+  int max_bounces = 12;                               ///< mirrors of the room on one path
+  double min_weight = 0;                              ///< throughput below which a path is cut off
+  int max_depth = 16;                                 ///< mirror, glass and metal objects on one path
+  int specular_samples = 256;                         ///< most directions sampled for the room in a rough metal, by all samples of a pixel
+  int paths = 8;                                      ///< `integrator: path`: paths of indirect light per sample
+  const light::LightingContext* lighting = nullptr;   ///< of this room; null: scenes without lamps, where surfaces show their albedo
+  const bake::BakedLight* baked = nullptr;            ///< if given, matte light is looked up here
+  const bake::IrradianceCache* irradiance = nullptr;  ///< if given, the light of lamps on matte surfaces is looked up here
+  scene::Color background;                            ///< radiance where a path is cut off
   double max_radiance = std::numeric_limits<double>::infinity();  ///< of surfaces in scenes without lamps (else: light::white_level)
 };
 

@@ -76,6 +76,11 @@ struct RayShader {
     return point;
   }
 
+  [[nodiscard]] Color direct_irradiance(const trace::Hit& hit, const trace::SurfacePoint& point, const surface::ShadingPoint& at) const {
+    if (options.irradiance) return options.irradiance->at(point, hit, at, sampler.stratum);
+    return light::irradiance(*options.lighting, at, sampler.stratum);
+  }
+
   // A surface that is neither mirror nor glass, under the lamps.
   void shade_lit(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color,
                  double share) {
@@ -87,9 +92,9 @@ struct RayShader {
     const surface::ShadingPoint at = light::shading_point(lighting, *scene.interior, point, path.hit);
     const double white = light::white_level(lighting);
     const auto baked = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
-    Color out =
-        baked ? white * *baked : light::outgoing_radiance(lighting, material, color, light::irradiance(lighting, at, sampler.stratum));
-    if (material.kind == scene::MaterialKind::glossy) out = out + light::highlight(lighting, at, -point.incoming, material, color);
+    Color out = baked ? white * *baked : light::outgoing_radiance(lighting, material, color, direct_irradiance(path.hit, point, at));
+    if (material.kind == scene::MaterialKind::glossy)
+      out = out + light::highlight(lighting, at, -point.incoming, material, color, sample_share * std::min(1.0, max_channel(weight)));
     out = clamped(out, white);
     if (baked || lighting.options.indirect_bounces == 0) return add(weight * out);
     // Estimates that exceed white are not clamped one by one: their mean would become too dark. Sums::mean clamps it.
