@@ -25,7 +25,7 @@ using scene::Color;
 constexpr double kMaxDiffuseStep =
     5;  // steps of 1/255 between neighbouring points: where they differ more, the point between them is sampled
 constexpr double kRoughTolerance = 3;  // steps of 1/255: points of the finest grid that are more off their neighbours' mean are rough,
-constexpr double kRoughStep = 12;      // and so are cells whose corners differ by more
+constexpr double kRoughStep = 6;       // and so are cells whose corners differ by more
 
 /// What the surface of a patch looks like.
 struct PatchStyle {

@@ -1,7 +1,6 @@
 #include "compiler/driver/trace_film.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "compiler/bake/diffuse.h"
@@ -17,13 +16,14 @@ constexpr int kBakeSamplesPerPath = 32;
 /// Paths of light between surfaces for each sample of a pixel.
 int path_count(const scene::BakeSpec& spec) { return std::max(1, bake::bake_options(spec).radiosity.samples / kBakeSamplesPerPath); }
 
-/// Where light is interpolated only where it is smooth, points at borders of shadows need not be denser than the samples of the picture:
-/// those are lit by themselves.
-bake::BakeOptions cache_options(const PreparedScene& scene, const place::Camera& eye, int samples) {
+/// Where light is interpolated only where it is smooth, points at borders of shadows need not be denser than the pixels of the picture:
+/// samples there are lit by themselves. In rooms that are larger than a unit of length, most is seen from farther away than that.
+bake::BakeOptions cache_options(const PreparedScene& scene, const place::Camera& eye) {
   constexpr double kDensityPerPixel = 0.25;  // times pixels per radian, which is their density at distance 1
   bake::BakeOptions options = bake_options(scene);
-  const double wanted = kDensityPerPixel * place::pixels_per_radian(eye) * std::sqrt(static_cast<double>(samples));
-  options.max_density = std::clamp(wanted, options.min_density, options.max_density);
+  const double distance = std::max({1.0, scene.interior().polygon.circumradius, scene.interior().height});
+  options.min_density /= distance;
+  options.max_density = std::clamp(kDensityPerPixel / distance * place::pixels_per_radian(eye), options.min_density, options.max_density);
   return options;
 }
 
@@ -61,7 +61,7 @@ render::Film trace_film(const PreparedScene& scene, const place::Camera& eye, co
   }
   std::optional<bake::IrradianceCache> irradiance;
   if (draw.lighting && !options.exact)
-    draw.irradiance = &irradiance.emplace(scene.interior(), *draw.lighting, cache_options(scene, eye, options.samples));
+    draw.irradiance = &irradiance.emplace(scene.interior(), *draw.lighting, cache_options(scene, eye));
   return in_author_unit(render::draw(scene.trace_context(run).tracer, eye, draw, executor, progress), scene.loaded().unit_of_length);
 }
 

@@ -62,7 +62,7 @@ SampleBudget sample_budget(double steps, int samples, const SampleStratum& strat
   if (steps >= 0.5) return {pool, stratum.index * count, count, 1};
   // A faint image is sampled by every n-th stratum with the weight n, where n divides the number of strata.
   int every = 1;
-  for (int n = 2; n <= stratum.count && n * steps <= 1; ++n)
+  for (int n = 2; n <= stratum.count && 2 * n * steps <= 1; ++n)
     if (stratum.count % n == 0) every = n;
   if ((static_cast<std::uint64_t>(stratum.index) + surface::splitmix64(image)) % static_cast<std::uint64_t>(every) != 0) return {};
   return {pool, stratum.index / every, 1, static_cast<double>(every)};
@@ -81,6 +81,24 @@ ImageVisibility visibility_of(const Color& throughput) {
 ImageVisibility visibility_of(bool samples_agree, int shadow_rays, const Color& throughput) {
   if (shadow_rays == 0) return {};
   return samples_agree ? visibility_of(throughput) : ImageVisibility{Visibility::partial, {}};
+}
+
+/// The irradiance per unit of power from an image that is wholly open: its centre if it is faint, else its quadrature where that suffices.
+/// In: the distance to its centre; its upper bound.
+double open_irradiance(const LightingContext& lighting, const LampImage& image, const surface::ShadingPoint& point, double length,
+                       double bound) {
+  const Space space = lighting.scene.prism.space;
+  const bool is_point = image.samples.size() == 1 || bound <= lighting.options.max_step;
+  const int all = is_point ? 1 : static_cast<int>(image.samples.size()) - 1;
+  const int count = lamp_of_image(lighting, image).extent < kMaxQuadratureExtent * length ? std::min(kQuadratureSamples, all) : all;
+  double light = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto sample = static_cast<std::size_t>(is_point ? 0 : i + 1);
+    const Connection connection = connect(space, point.ray_origin, image.samples[sample], image.sheet);
+    const double cosine = connection.valid ? trace::inner(space, connection.direction, point.normal) : 0;
+    if (cosine > 0) light += cosine * unoccluded_irradiance(lighting, image, sample, point, connection);
+  }
+  return light / count;
 }
 
 ImageLight image_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
@@ -129,30 +147,10 @@ ImageLight image_irradiance(const LightingContext& lighting, std::uint32_t numbe
   return {(budget.weight / budget.count) * (lamp.power * sum), visibility_of(agree, shadow_rays, throughput)};
 }
 
-/// The irradiance per unit of power from an image that is wholly open. Strata take one sample of the quadrature each.
-double open_irradiance(const LightingContext& lighting, const LampImage& image, const surface::ShadingPoint& point, double length,
-                       const SampleStratum& stratum) {
-  const Space space = lighting.scene.prism.space;
-  const int all = std::max(1, static_cast<int>(image.samples.size()) - 1);
-  int count = lamp_of_image(lighting, image).extent < kMaxQuadratureExtent * length ? std::min(kQuadratureSamples, all) : all, first = 0;
-  if (stratum.count >= kQuadratureSamples && count == kQuadratureSamples) {
-    first = stratum.index % count;
-    count = 1;
-  }
-  double light = 0;
-  for (int i = first; i < first + count; ++i) {
-    const auto sample = static_cast<std::size_t>(image.samples.size() == 1 ? 0 : i + 1);
-    const Connection connection = connect(space, point.ray_origin, image.samples[sample], image.sheet);
-    const double cosine = connection.valid ? trace::inner(space, connection.direction, point.normal) : 0;
-    if (cosine > 0) light += cosine * unoccluded_irradiance(lighting, image, sample, point, connection);
-  }
-  return light / count;
-}
-
 /// The irradiance from an image that is expected to be open or blocked. Nothing if a part of it is below the horizon, or if a shadow ray to
 /// its centre tells otherwise. In: whether to trace that ray.
 std::optional<ImageLight> expected_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
-                                              const ImageVisibility& expected, bool check, const SampleStratum& stratum) {
+                                              const ImageVisibility& expected, bool check) {
   if (expected.kind != Visibility::open && expected.kind != Visibility::blocked) return std::nullopt;
   const LampImage& image = lighting.lamps->images[number];
   const Space space = lighting.scene.prism.space;
@@ -160,14 +158,15 @@ std::optional<ImageLight> expected_irradiance(const LightingContext& lighting, s
   const Connection centre = connect(space, point.ray_origin, image.samples[0], image.sheet);
   if (!centre.valid || centre.length <= 2 * lamp.extent) return std::nullopt;
   if (trace::inner(space, centre.direction, point.normal) <= 2 * lamp.extent / centre.length) return std::nullopt;
-  if (image_bound(lighting, image, centre.length, centre.arc) < lighting.options.cull_below) return ImageLight{};
+  const double bound = image_bound(lighting, image, centre.length, centre.arc);
+  if (bound < lighting.options.cull_below) return ImageLight{};
   Color throughput{static_cast<double>(expected.throughput[0]), static_cast<double>(expected.throughput[1]),
                    static_cast<double>(expected.throughput[2])};
   if (check) throughput = shadow_transmittance(lighting, image, 0, point, centre);
   const ImageVisibility seen = visibility_of(throughput);
   if (seen.kind != expected.kind) return std::nullopt;
   if (seen.kind == Visibility::blocked) return ImageLight{{}, seen};
-  return ImageLight{open_irradiance(lighting, image, point, centre.length, stratum) * (lamp.power * throughput), seen};
+  return ImageLight{open_irradiance(lighting, image, point, centre.length, bound) * (lamp.power * throughput), seen};
 }
 
 Result<LampSet> with_images(const scene::Scene& scene, const place::Interior& interior, PlacedLamps placed, const LightOptions& options) {
@@ -259,11 +258,11 @@ VisibleIrradiance irradiance(const LightingContext& lighting, const surface::Sha
   if (!expected.visibility.empty()) {
     for (std::size_t k = (kCheckOneIn - expected.phase % kCheckOneIn) % kCheckOneIn; k < count; k += kCheckOneIn) {
       const ImageVisibility& kind = expected.visibility[k];
-      found[k] = expected_irradiance(lighting, expected.images[k], point, kind, true, stratum);
+      found[k] = expected_irradiance(lighting, expected.images[k], point, kind, true);
       check_all = check_all || (!found[k] && (kind.kind == Visibility::open || kind.kind == Visibility::blocked));
     }
     for (std::size_t k = 0; k < count; ++k)
-      if (!found[k]) found[k] = expected_irradiance(lighting, expected.images[k], point, expected.visibility[k], check_all, stratum);
+      if (!found[k]) found[k] = expected_irradiance(lighting, expected.images[k], point, expected.visibility[k], check_all);
   }
   VisibleIrradiance sum;
   sum.visibility.reserve(count);
