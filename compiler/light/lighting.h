@@ -97,9 +97,9 @@ struct ExpectedImages {
   std::uint32_t phase = 0;  ///< chooses the images that are checked: points near each other should have different ones
 };
 /// The same where neighbouring points tell how images are seen.
-/// Makes: images expected to be open or blocked are taken for that. One in four is checked by a shadow ray to its centre; if any check
-///        tells otherwise, all are checked. Where a check fails, or where `partial` or `unknown` is expected, an image is sampled as a
-///        whole.
+/// Makes: images expected to be open or blocked are taken for that, in every stratum alike. One in four is checked by a shadow ray to its
+///        centre; if any check tells otherwise, all are checked. Where a check fails, or where `partial` or `unknown` is expected, an
+///        image is sampled as its stratum is.
 /// Error: borders of shadows that no check meets are missed.
 [[nodiscard]] VisibleIrradiance irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
                                            const ExpectedImages& expected, const SampleStratum& stratum = {});
