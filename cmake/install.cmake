@@ -30,10 +30,8 @@ foreach(shipped scripts/povray-pipe scripts/render_blender.py scripts/drawing.py
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${shipped} ${ORBC_SHARE}/orbc/${name} SYMBOLIC)
 endforeach()
 
-# The designer's page, which scripts/web builds; without it `orbc design` says so.
-if(EXISTS ${ORBC_SHARE}/orbc/designer.html)
-  install(FILES ${ORBC_SHARE}/orbc/designer.html DESTINATION ${ORBC_DATA_DIR} COMPONENT program)
-endif()
+# The designer's page, if scripts/web has built it by then; without it `orbc design` says so.
+install(FILES ${ORBC_SHARE}/orbc/designer.html DESTINATION ${ORBC_DATA_DIR} COMPONENT program OPTIONAL)
 
 # Man page and completions are printed by the program itself, from the same table as its --help.
 if(NOT ORBC_SANITIZE)
