@@ -39,7 +39,7 @@ if(ORBC_CORE_ONLY)  # of rooms whose tests read no file
   return()
 endif()
 
-foreach(room base geometry image image_io notation scene room mesh mesh_io verify diff)
+foreach(room base geometry image image_io notation scene room mesh mesh_io animation verify diff)
   orbc_tests(test_${room} tests/unit/${room} USES ${room})
 endforeach()
 foreach(room place cover bend trace surface light bake render cutoff lod native_lights driver)  # their scenes name meshes and pictures

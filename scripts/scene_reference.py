@@ -49,6 +49,13 @@ SECTIONS = [
     ('Directions of view', 'properties/camera/properties/look_at/anyOf/2', 'camera.look_at', []),
     ('A lens', 'properties/camera/properties/lens', 'camera.lens', ['camera.at={polar: [0.3, 40deg], z: 0.5}']),
     ('How far mirrors are followed', 'properties/cover', 'cover', []),
+    ('Films', 'properties/animation', 'animation', ['animation.set={camera.fov: {from: 60deg, to: 90deg}}']),
+    ('Between two values', '$defs/motion/anyOf/1', 'animation.set."camera.fov"', ['animation.set={camera.fov: {from: 60deg, to: 90deg}}']),
+    ('Keyframes', '$defs/motion/anyOf/2', 'animation.set."room.walls.1.mirror.reflectance"', ['animation.set={room.walls.1.mirror.reflectance: {keys: [[0, 0.5]]}}']),
+    ('Walks', '$defs/motion/anyOf/3', 'animation.set."camera.at"', ['animation.set={camera.at: {walk: walls}}']),
+    ('Curves', '$defs/motion/anyOf/4', 'animation.set."camera.at"', ['animation.set={camera.at: {path: [{polar: [0.1, 0deg]}, {polar: [0.1, 90deg]}, {polar: [0.1, 180deg]}]}}']),
+    ('Ahead', '$defs/motion/anyOf/5/properties/ahead', 'animation.set."camera.look_at".ahead',
+     ['animation.set={camera.at: {walk: walls}, camera.look_at: {ahead: {}}}']),
 ]
 
 # What more must stand beside a key, said before it.
@@ -133,7 +140,7 @@ def bounds(part):
 NAMED = {'color': '[colour](#colours-and-angles)', 'angle': '[angle](#colours-and-angles)', 'place': '[place](#places)', 'place_map': '[place](#places)',
          'material': '[material](#materials)', 'two_colors': 'two colours', 'wall': '[wall](#walls)', 'mirror': '[mirror](#mirrors), or none',
          'wall_mirror': '[mirror](#mirrors)', 'frame': '[frame](#frames), or none', 'surface': '[surface](#floor-and-ceiling)',
-         'material_name': 'name of a material', 'material_map': '[material](#materials)'}
+         'material_name': 'name of a material', 'motion': '[motion](#between-two-values)', 'material_map': '[material](#materials)'}
 
 
 def takes(part):

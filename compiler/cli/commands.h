@@ -94,6 +94,18 @@ struct RenderArguments {
   bool exact = false;               ///< tracer: light every sample by itself
 };
 
+struct AtArguments {
+  SceneArguments scene;
+  double time = 0;                  ///< 0…1
+};
+struct AnimateArguments {
+  RenderArguments render;           ///< `compile.output` is not used
+  std::string folder;               ///< of the frames
+  std::string format = "png";       ///< of a frame: png, jpg, exr
+  std::string frames;               ///< "40-79"; empty = all
+  std::string video;                ///< .webm or .mp4; empty = none
+};
+
 struct VerifyArguments {
   CompileArguments compile;
   int samples = 1;
@@ -128,6 +140,8 @@ int check(const CheckArguments& arguments, const Common& common);
 int compile(const CompileArguments& arguments, const Common& common);
 int design(const DesignArguments& arguments, const Common& common);
 int render(const RenderArguments& arguments, const Common& common);
+int print_moment(const AtArguments& arguments, const Common& common);
+int animate(const AnimateArguments& arguments, const Common& common);
 int verify(const VerifyArguments& arguments, const Common& common);
 /// 0 they agree, 1 they differ, 2 usage, 3 one of them cannot be read.
 int diff(const DiffArguments& arguments, const Common& common);

@@ -33,6 +33,8 @@ void define_commands(Program& program) {
   define_design(program);
   define_render(program);
   define_trace(program);
+  define_at(program);
+  define_animate(program);
   define_verify(program);
   define_diff(program);
   define_explain(program);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compiler/animation/moment.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/effects.h"
 #include "compiler/cli/expanded_star.h"
@@ -13,6 +14,7 @@
 #include "compiler/notation/print.h"
 #include "compiler/room/realise.h"
 #include "compiler/room/view.h"
+#include "compiler/scene/animation.h"
 #include "compiler/scene/starter.h"
 
 namespace orbc::cli {
@@ -41,6 +43,30 @@ int new_scene(const NewArguments& a, const Common& common) {
   return kDone;
 }
 
+namespace {
+
+/// What is wrong with a film at four moments of it.
+Diagnostics wrong_moments(const std::string& path, const scene::Overrides& overrides, const scene::Animation& animation) {
+  if (path == "-") return {};  // standard input is read once
+  const auto text = driver::open(path);
+  if (!text) return text.error();
+  const auto with = [&](const scene::Overrides& more) {
+    scene::Overrides all = overrides;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+    const auto moment = animation::overrides_at(
+        animation, t, [&](const scene::Overrides& more) { return scene::read_scene(text->source, text->folder, with(more)); });
+    if (!moment) return moment.error();
+    const auto loaded = driver::load(*text, with(*moment));
+    if (!loaded) return loaded.error();
+  }
+  return {};
+}
+
+}  // namespace
+
 int check(const CheckArguments& a, const Common& common) {
   if (std::count(a.scenes.begin(), a.scenes.end(), "-") > 1) throw UsageError("standard input can be read once: give - once");
   int code = kDone;
@@ -50,12 +76,15 @@ int check(const CheckArguments& a, const Common& common) {
   for (const std::string& path : a.scenes) {
     auto loaded = driver::load(path, overrides, parse_bytes(common.max_memory));
     if (loaded) append(loaded->notes, without_effect(common.given, {kTraced | kPov | kGltf, false, false, false, 1}, *loaded));
-    const Diagnostics& found = loaded ? loaded->notes : loaded.error();
+    const bool moves = loaded && loaded->scene.animation;
+    const Diagnostics wrong = moves ? wrong_moments(path, overrides, *loaded->scene.animation) : Diagnostics{};
+    Diagnostics found = loaded ? loaded->notes : loaded.error();
+    append(found, wrong);
     Common plain = common;
     plain.json = false;
     if (!common.json) print(found, plain);
     all.insert(all.end(), found.begin(), found.end());
-    if (!loaded) code = kSceneWrong;
+    if (!loaded || has_error(wrong)) code = kSceneWrong;
     else if (!common.quiet && !common.json)
       print_message(fmt::format("{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
                  notation::to_text(loaded->scene.orbifold), loaded->interior->polygon.walls.size(), loaded->scene.objects.size(),

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,25 +20,8 @@
 namespace orbc::driver {
 namespace {
 
+constexpr std::string_view kStandardInput = "<stdin>";
 constexpr std::size_t kMaxInputBytes = 8 << 20;  // keeps an endless pipe out of the memory; read_scene refuses less
-
-// Like the command line this reads standard input: a scene may come through a pipe.
-Result<scene::ReadResult> read(const std::string& path, const scene::Overrides& overrides) {
-  if (path != "-") return scene::load_scene(path, overrides);
-  auto source = std::make_shared<SourceText>();
-  source->name = "<stdin>";
-  std::array<char, 1 << 16> buffer{};
-  while (source->text.size() < kMaxInputBytes) {
-    const ssize_t got = ::read(STDIN_FILENO, buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0)
-      return make_error("scene.cannot-read", fmt::format("cannot read the scene from standard input: {}", std::strerror(errno)),
-                        "pipe a scene in, or give the path of a scene file");
-    if (got == 0) break;
-    source->text.append(buffer.data(), static_cast<std::size_t>(got));
-  }
-  return scene::read_scene(std::shared_ptr<const SourceText>(source), ".", overrides);
-}
 
 void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from.begin(), from.end()); }
 
@@ -63,15 +47,39 @@ Result<LoadedScene> furnish_and_light(scene::Scene scene, const mesh::AssetSourc
 
 }  // namespace
 
+// Like the command line this reads standard input: a scene may come through a pipe.
+Result<scene::SceneText> open(const std::string& path) {
+  if (path != "-") return scene::open_scene(path);
+  auto source = std::make_shared<SourceText>();
+  source->name = kStandardInput;
+  std::array<char, 1 << 16> buffer{};
+  while (source->text.size() < kMaxInputBytes) {
+    const ssize_t got = ::read(STDIN_FILENO, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0)
+      return make_error("scene.cannot-read", fmt::format("cannot read the scene from standard input: {}", std::strerror(errno)),
+                        "pipe a scene in, or give the path of a scene file");
+    if (got == 0) break;
+    source->text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  return scene::SceneText{std::shared_ptr<const SourceText>(source), "."};
+}
+
 Result<LoadedScene> load(const std::string& path, const scene::Overrides& overrides, std::uint64_t max_memory) {
-  auto read_in = read(path, overrides);
-  if (!read_in) return read_in.error();
-  std::vector<std::string> files{path};
+  const auto text = open(path);
+  if (!text) return text.error();
+  return load(*text, overrides, max_memory);
+}
+
+Result<LoadedScene> load(const scene::SceneText& text, const scene::Overrides& overrides, std::uint64_t max_memory) {
+  auto read = scene::read_scene(text.source, text.folder, overrides);
+  if (!read) return read.error();
+  std::vector<std::string> files{text.source->name == kStandardInput ? "-" : text.source->name};
   mesh_io::LoadOptions options = mesh_io::bounds_within(max_memory);
   options.on_read = [&files](const std::string& file) {
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
   };
-  auto loaded = load(*std::move(read_in), mesh_io::assets_from_files(options));
+  auto loaded = load(*std::move(read), mesh_io::assets_from_files(options));
   if (loaded) loaded->files = std::move(files);
   return loaded;
 }

@@ -25,11 +25,17 @@ struct LoadedScene {
   double unit_of_length = 1;  ///< the author's, in that of this scene, which all lengths above have (unit_of_length.h)
 };
 
+/// The text of a scene. In: a path, or "-" for standard input.
+[[nodiscard]] Result<scene::SceneText> open(const std::string& path);
+
 /// read → realise → furnish → place lamps → eye. Flat rooms get a unit of length of their own.
 /// In:          a path, or "-" for standard input; values that replace those of the scene; bytes that the program may take, which bound
 ///              meshes and pictures.
 /// Diagnostics: those of the rooms it goes through, with places in the file.
 [[nodiscard]] Result<LoadedScene> load(const std::string& path, const scene::Overrides& overrides = {},
+                                       std::uint64_t max_memory = std::uint64_t{4} << 30);
+/// The same for a text that has been opened.
+[[nodiscard]] Result<LoadedScene> load(const scene::SceneText& text, const scene::Overrides& overrides = {},
                                        std::uint64_t max_memory = std::uint64_t{4} << 30);
 
 /// The same for a scene that has been read, with its meshes and pictures from anywhere. Keeps the notes of reading.

@@ -59,7 +59,7 @@ Scene read_root(Reader& reader, const Node& root) {
   scene.span = root.span;
   const Fields fields(reader, root, "the scene",
                       {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "white", "integrator",
-                       "bake", "camera", "cover"});
+                       "bake", "camera", "cover", "animation"});
   if (!fields.is_map()) return scene;
   read_version(fields);
   scene.allow_non_orbifold = fields.boolean("allow_non_orbifold", false);
@@ -82,6 +82,8 @@ Scene read_root(Reader& reader, const Node& root) {
   scene.camera = read_camera(reader, part("camera"), facts);
   if (scene.orbifold_span.source) scene.cover.max_bounces = default_max_bounces(scene.orbifold, horizontal_mirrors(scene.room));
   scene.cover = read_cover(reader, part("cover"), scene.cover);
+  if (const Node* node = fields.find("animation"))
+    scene.animation = std::make_shared<const Animation>(read_animation(reader, *node, facts));
   balance_white(fields, scene);
   return scene;
 }
@@ -130,6 +132,12 @@ std::string folder_of(const std::filesystem::path& path) {
   return device || !std::filesystem::is_regular_file(path, error) ? "." : path.parent_path().string();
 }
 
+// The text without a byte order mark.
+std::shared_ptr<const SourceText> without_bom(const std::shared_ptr<const SourceText>& source) {
+  if (source->text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return source;
+  return std::make_shared<const SourceText>(SourceText{source->name, source->text.substr(kByteOrderMark.size())});
+}
+
 // In: a text without a byte order mark.
 Result<ReadResult> read_without_bom(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& texts) {
   const OverrideSources overrides = sources_of(texts);
@@ -162,17 +170,22 @@ RoomFacts room_facts(const notation::Orbifold& orbifold) {
 }
 
 Result<ReadResult> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder, const Overrides& overrides) {
-  const std::string& text = source->text;
-  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) != 0) return read_without_bom(source, folder, overrides);
-  return read_without_bom(std::make_shared<const SourceText>(SourceText{source->name, text.substr(kByteOrderMark.size())}), folder,
-                          overrides);
+  return read_without_bom(without_bom(source), folder, overrides);
 }
 
 Result<ReadResult> read_scene(const SourceText& source, const std::string& folder, const Overrides& overrides) {
   return read_scene(std::make_shared<const SourceText>(source), folder, overrides);
 }
 
-Result<ReadResult> load_scene(const std::string& path, const Overrides& overrides) {
+Result<Document> document_of(const SceneText& text, const Overrides& overrides) {
+  Result<Document> document = parse_document(without_bom(text.source));
+  if (!document) return document;
+  Diagnostics found = apply_overrides(sources_of(overrides), *document);
+  if (has_error(found)) return found;
+  return document;
+}
+
+Result<SceneText> open_scene(const std::string& path) {
   const auto cannot_read = [&](const std::string& why) {
     return make_error("scene.cannot-read", fmt::format("cannot read the scene {}: {}", path, why),
                       "give the path of a scene file; `orbc new '*2323'` writes one");
@@ -190,7 +203,13 @@ Result<ReadResult> load_scene(const std::string& path, const Overrides& override
   if (text.size() > limit)
     return make_error("scene.too-large", fmt::format("{} has more bytes than a scene may have ({})", path, limit),
                       "put big data into mesh files");
-  return read_scene(SourceText{path, std::move(text)}, folder_of(path), overrides);
+  return SceneText{std::make_shared<const SourceText>(SourceText{path, std::move(text)}), folder_of(path)};
+}
+
+Result<ReadResult> load_scene(const std::string& path, const Overrides& overrides) {
+  const auto text = open_scene(path);
+  if (!text) return text.error();
+  return read_scene(text->source, text->folder, overrides);
 }
 
 }  // namespace orbc::scene

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "compiler/base/result.h"
+#include "compiler/scene/document.h"
 #include "compiler/scene/override.h"
 #include "compiler/scene/scene.h"
 
@@ -12,7 +13,7 @@ namespace orbc::scene {
 /// A scene, and warnings and notes to its author.
 struct ReadResult {
   Scene scene;
-  Diagnostics notes;                ///< in the order of the file
+  Diagnostics notes;  ///< in the order of the file
 };
 
 /// Reads the text of a scene file, in bounded time, memory and stack for any text. All errors of a file are reported together, in the order
@@ -23,12 +24,26 @@ struct ReadResult {
 /// Diagnostics: scene.* (schema/diagnostics.md), and notation.* placed at the notation.
 /// Not promised: that files exist, or that objects lie inside the room.
 [[nodiscard]] Result<ReadResult> read_scene(const std::shared_ptr<const SourceText>& source, const std::string& folder = {},
-                                      const Overrides& overrides = {});
+                                            const Overrides& overrides = {});
 [[nodiscard]] Result<ReadResult> read_scene(const SourceText& source, const std::string& folder = {}, const Overrides& overrides = {});
 
-/// Reads a scene from a file. The folder of the file is the scene's folder; for a pipe it is the current folder. Stops at the size limit of
+/// The text of a scene, and the folder to which paths in it are relative.
+struct SceneText {
+  std::shared_ptr<const SourceText> source;
+  std::string folder;
+};
+
+/// The document of a scene with overrides applied, as the reader would read it.
+/// Diagnostics: those of `parse_document` and `apply_overrides`.
+[[nodiscard]] Result<Document> document_of(const SceneText& text, const Overrides& overrides);
+
+/// The text of a scene file. The folder of the file is the scene's folder; for a pipe it is the current folder. Stops at the size limit of
 /// scenes, so that /dev/zero ends.
-/// Diagnostics: scene.cannot-read, and those of `read_scene`.
+/// Diagnostics: scene.cannot-read, scene.too-large.
+[[nodiscard]] Result<SceneText> open_scene(const std::string& path);
+
+/// Opens and reads a scene file.
+/// Diagnostics: those of `open_scene` and `read_scene`.
 [[nodiscard]] Result<ReadResult> load_scene(const std::string& path, const Overrides& overrides = {});
 
 }  // namespace orbc::scene

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/scene/animation.h"
 #include "compiler/scene/read.h"
 #include "compiler/scene/scene.h"
 #include "compiler/scene/values.h"
@@ -59,6 +60,9 @@ struct RoomFacts {
 void balance_white(const Fields& fields, Scene& scene);
 /// Reads `cover`; missing keys keep the values of `cover`.
 [[nodiscard]] CoverSpec read_cover(Reader& reader, const Node& node, CoverSpec cover);
+
+/// Reads `animation`. The paths and values are checked where they are applied (animation room).
+[[nodiscard]] Animation read_animation(Reader& reader, const Node& node, const RoomFacts& facts);
 
 /// Reads a wall's number (from 1) from a key of `walls`. Makes: 0 if it is no number.
 [[nodiscard]] int read_wall_number(Reader& reader, const Node& key, const RoomFacts& facts);

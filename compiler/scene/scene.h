@@ -3,6 +3,7 @@
 #include <complex>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -225,6 +226,8 @@ struct GivenKey {
   SourceSpan span;
 };
 
+struct Animation;
+
 struct Scene {
   notation::Orbifold orbifold;
   SourceSpan orbifold_span;         ///< of the notation
@@ -238,6 +241,7 @@ struct Scene {
   BakeSpec bake;
   Camera camera;
   CoverSpec cover;
+  std::shared_ptr<const Animation> animation;  ///< missing: a still (scene/animation.h)
   std::vector<GivenKey> given_keys;  ///< in the order of the file; for warnings about keys without effect on a product
   std::string folder;               ///< of the scene file; paths of meshes and textures are relative to it
   SourceSpan span;

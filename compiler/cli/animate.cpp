@@ -1,0 +1,272 @@
+// Films: orbc at, orbc animate.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "compiler/animation/moment.h"
+#include "compiler/cli/commands.h"
+#include "compiler/cli/draw.h"
+#include "compiler/cli/film_folder.h"
+#include "compiler/cli/output.h"
+#include "compiler/cli/picture.h"
+#include "compiler/cli/progress_bar.h"
+#include "compiler/cli/result.h"
+#include "compiler/cli/support.h"
+#include "compiler/driver/fingerprint.h"
+#include "compiler/driver/threads.h"
+#include "compiler/driver/trace_film.h"
+#include "compiler/image_io/exr.h"
+#include "compiler/scene/animation.h"
+#include "compiler/scene/print_document.h"
+
+namespace orbc::cli {
+namespace {
+
+constexpr int kSmooth = 4;  // samples a pixel
+
+/// The scene's text with what the command line says, and the film that it describes.
+struct Film {
+  scene::SceneText text;
+  scene::Overrides overrides;  ///< of the command line
+  std::shared_ptr<const scene::Animation> animation;
+  Diagnostics notes;
+
+  [[nodiscard]] scene::Overrides with(const scene::Overrides& more) const {
+    scene::Overrides all = overrides;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  [[nodiscard]] animation::ReadScene reader() const {
+    return [this](const scene::Overrides& more) { return scene::read_scene(text.source, text.folder, with(more)); };
+  }
+};
+
+Result<Film> open_film(const SceneArguments& arguments) {
+  auto text = driver::open(arguments.scene);
+  if (!text) return text.error();
+  Film film{std::move(*text), overrides_of(arguments), nullptr, {}};
+  const auto read = film.reader()({});
+  if (!read) return read.error();
+  film.notes = read->notes;
+  film.animation = read->scene.animation;
+  if (!film.animation)
+    return make_error("animation.missing", "nothing moves in this scene",
+                      "add animation: {frames: 100, set: {camera.at: {walk: walls, distance: 0.15}, camera.look_at: ahead}}",
+                      read->scene.span);
+  return film;
+}
+
+// ---- frames ---------------------------------------------------------------------------------------------------------------------
+
+/// A range of frames; `end` is not included.
+struct FrameRange {
+  int begin = 0, end = 0;
+};
+
+/// "40-79", "12", "" for all.
+FrameRange frame_range(const std::string& text, int frames) {
+  if (text.empty()) return {0, frames};
+  int first = 0, last = 0;
+  const char* end = text.data() + text.size();
+  auto [at, error] = std::from_chars(text.data(), end, first);
+  bool well = error == std::errc();
+  last = first;
+  if (well && at != end) {
+    well = *at == '-';
+    const auto second = std::from_chars(at + (well ? 1 : 0), end, last);
+    well = well && second.ec == std::errc() && second.ptr == end;
+  }
+  if (!well || first < 0 || last < first || last >= frames)
+    throw UsageError(
+        fmt::format("--frames wants FIRST-LAST within 0-{}, such as 0-{}; got {}", frames - 1, std::min(39, frames - 1), text));
+  return {first, last + 1};
+}
+
+/// A moment of the film, ready to be drawn: what it is made of, and what no eye changes of it.
+struct Moment {
+  scene::Overrides overrides;
+  std::shared_ptr<const driver::PreparedScene> prepared;
+  std::uint64_t content = 0;  ///< fingerprint of the furnished room
+  place::Camera eye;
+};
+
+bool is_of_camera(const SourceText& override_text) { return override_text.text.compare(0, 7, "camera.") == 0; }
+
+bool differ_in_camera_alone(const scene::Overrides& a, const scene::Overrides& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].text != b[i].text && !(is_of_camera(a[i]) && is_of_camera(b[i]))) return false;
+  return true;
+}
+
+/// The next moment. What no eye changes is taken over from the last moment, if nothing but the camera moves between them.
+Result<Moment> next_moment(const Film& film, int frame, const std::optional<Moment>& last, const driver::PrepareOptions& options) {
+  auto overrides = animation::overrides_of_frame(*film.animation, frame, film.reader());
+  if (!overrides) return overrides.error();
+  if (last && differ_in_camera_alone(last->overrides, *overrides)) {
+    const auto still = film.reader()(*overrides);
+    if (!still) return still.error();
+    const auto eye = place::make_camera(still->scene, last->prepared->interior());
+    if (!eye) return located(eye.error(), film.animation->span);
+    return Moment{std::move(*overrides), last->prepared, last->content, *eye};
+  }
+  auto loaded = driver::load(film.text, film.with(*overrides));
+  if (!loaded) return loaded.error();
+  Moment moment{std::move(*overrides), nullptr, driver::fingerprint(*loaded->interior), loaded->eye};
+  moment.prepared = std::make_shared<const driver::PreparedScene>(std::move(*loaded), options);
+  return moment;
+}
+
+/// What a frame is made of, in 16 digits: program, scene, contents of its files, options.
+Result<std::string> fingerprint_of(const Film& film, const Moment& moment, const std::string& options) {
+  const auto document = scene::document_of(film.text, film.with(moment.overrides));
+  if (!document) return document.error();
+  std::uint64_t sum = driver::checksum(ORBC_VERSION);
+  sum = driver::checksum(scene::flow_text(document->root), sum);
+  sum = driver::checksum(fmt::format("{:x} {}", moment.content, options), sum);
+  return fmt::format("{:016x}", sum);
+}
+
+/// The bytes of a frame, or nothing after an exit code other than kDone.
+struct DrawnFrame {
+  int code = kDone;
+  std::string bytes;
+};
+
+DrawnFrame draw_frame(const Moment& moment, const AnimateArguments& a, PictureFormat format, const Common& common) {
+  Common quiet = common;
+  quiet.quiet = true;
+  quiet.json = false;
+  if (a.render.engine != "tracer") {
+    // Exports are made for the eye of their scene.
+    driver::LoadedScene loaded = moment.prepared->loaded();
+    loaded.eye = moment.eye;
+    Drawn drawn = draw_elsewhere(driver::PreparedScene(std::move(loaded), moment.prepared->options()), a.render, quiet);
+    return {drawn.code, drawn.code == kDone ? encoded(drawn.picture, format) : ""};
+  }
+  const render::Film film =
+      driver::trace_film(*moment.prepared, moment.eye, {a.render.samples}, driver::parallel_executor(common.threads, &interrupted()));
+  return {kDone, format == PictureFormat::exr
+                     ? image_io::encode_exr(render::to_float_image(film))
+                     : encoded(render::to_image(film, render::Pass::color, moment.prepared->scene().exposure), format)};
+}
+
+// ---- the film as a video ------------------------------------------------------------------------------------------------------------
+
+std::vector<std::string> video_command(const FilmFolder& folder, const std::string& output, double rate) {
+  std::vector<std::string> command = {
+      "ffmpeg", "-y", "-loglevel", "error", "-framerate", fmt::format("{}", rate), "-i", folder.path_of(folder.pattern())};
+  const bool webm = lower_case(std::filesystem::path(output).extension().string()) == ".webm";
+  // Constant quality, in the pixel format that every player shows; an odd last row or column is left out, as this format asks for.
+  const std::vector<std::string> codec = webm ? std::vector<std::string>{"-c:v", "libvpx-vp9", "-crf", "20", "-b:v", "0"}
+                                              : std::vector<std::string>{"-c:v", "libx264", "-crf", "16"};
+  command.insert(command.end(), codec.begin(), codec.end());
+  command.insert(command.end(), {"-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-bitexact", output});
+  return command;
+}
+
+void check_video(const AnimateArguments& a) {
+  if (a.video.empty()) return;
+  const std::string ending = lower_case(std::filesystem::path(a.video).extension().string());
+  if (ending != ".webm" && ending != ".mp4") throw UsageError(fmt::format("\"{}\": end a video in .webm or .mp4", a.video));
+  if (a.format == "exr") throw UsageError("a video is made of frames of 8 bits: --format png");
+  if (run_program({"ffmpeg", "-version"}, true) != 0) throw UsageError("--video needs the program ffmpeg: apt-get install ffmpeg");
+}
+
+struct Counts {
+  int drawn = 0, kept = 0, elsewhere = 0;
+};
+
+std::string summary(const AnimateArguments& a, const Counts& counts) {
+  std::string text = fmt::format("{}: {} frames drawn", a.folder, counts.drawn);
+  if (counts.kept > 0) text += fmt::format(", {} were there", counts.kept);
+  if (counts.elsewhere > 0) text += fmt::format(", {} are being drawn by others", counts.elsewhere);
+  return text;
+}
+
+}  // namespace
+
+int print_moment(const AtArguments& a, const Common& common) {
+  const auto film = open_film(a.scene);
+  if (!film) return print(film.error(), common), kSceneWrong;
+  const auto overrides = animation::overrides_at(*film->animation, a.time, film->reader());
+  if (!overrides) return print(overrides.error(), common), kSceneWrong;
+  const auto still = film->reader()(*overrides);
+  if (!still) return print(still.error(), common), kSceneWrong;
+  const auto document = scene::document_of(film->text, film->with(*overrides));
+  if (!document) return print(document.error(), common), kSceneWrong;
+  const std::string text = scene::block_text(document->root);
+  if (!common.json) write_output("-", text);
+  print_result({{"time", a.time}, {"scene", text}}, still->notes, common);
+  return kDone;
+}
+
+int animate(const AnimateArguments& arguments, const Common& common) {
+  AnimateArguments a = arguments;
+  if (a.render.samples == 0) a.render.samples = kSmooth;
+  const PictureFormat format = picture_format_of("frame." + a.format, a.render.engine == "tracer", "pictures of renderers have 8 bits");
+  check_video(a);
+  const auto film = open_film(a.render.compile.scene);
+  if (!film) return print(film.error(), common), kSceneWrong;
+  print(film->notes, common);
+  const scene::Animation& animation = *film->animation;
+  const FrameRange range = frame_range(a.frames, animation.frames);
+  const FilmFolder folder(a.folder, "." + a.format, animation.frames);
+  if (const auto foreign = folder.foreign_frame(range.begin, range.end))
+    return print({make_error("animation.foreign-frame", fmt::format("{} was not drawn by orbc animate", *foreign),
+                             "move it away, or choose another folder")},
+                 common),
+           kSceneWrong;
+  const std::string options = fmt::format("{} {} {} {}", a.render.engine, a.render.samples, a.format, a.render.compile.tolerance);
+  ProgressBar bar(!common.quiet && stderr_is_terminal());
+  Progress progress = bar.progress();
+  Counts counts;
+  std::optional<Moment> last;
+  for (int frame = range.begin; frame < range.end; ++frame) {
+    report(progress, "drawing", static_cast<std::uint64_t>(frame - range.begin), static_cast<std::uint64_t>(range.end - range.begin));
+    auto moment = next_moment(*film, frame, last, prepare_options(a.render.compile));
+    if (!moment) return bar.clear(), print(moment.error(), common), kSceneWrong;
+    last = std::move(*moment);
+    const auto fingerprint = fingerprint_of(*film, *last, options);
+    if (!fingerprint) return bar.clear(), print(fingerprint.error(), common), kSceneWrong;
+    if (folder.has(frame, *fingerprint)) {
+      ++counts.kept;
+      continue;
+    }
+    const FilmFolder::Claim claim = folder.claim(frame);
+    if (!claim.held()) {
+      ++counts.elsewhere;
+      continue;
+    }
+    if (folder.has(frame, *fingerprint)) {
+      ++counts.kept;
+      continue;
+    }  // drawn by another while this one looked
+    const DrawnFrame drawn = draw_frame(*last, a, format, common);
+    if (drawn.code != kDone) return drawn.code;
+    folder.write(frame, *fingerprint, drawn.bytes);
+    ++counts.drawn;
+  }
+  bar.clear();
+  nlohmann::ordered_json result = {{"output", a.folder},
+                                   {"frames", range.end - range.begin},
+                                   {"drawn", counts.drawn},
+                                   {"kept", counts.kept},
+                                   {"drawn_by_others", counts.elsewhere}};
+  if (!a.video.empty()) {
+    if (counts.elsewhere > 0 || folder.manifest().size() < static_cast<std::size_t>(animation.frames))
+      return print({make_error("animation.frames-missing", "the video is made when all frames are there", "draw the others first")},
+                   common),
+             kSceneWrong;
+    if (const int code = run_program(video_command(folder, a.video, animation.rate), common.quiet); code != 0) return kMachine;
+    result["video"] = a.video;
+  }
+  print_result(std::move(result), film->notes, common);
+  if (!common.quiet) fmt::print(stderr, "{}\n", summary(a, counts));
+  return kDone;
+}
+
+}  // namespace orbc::cli
