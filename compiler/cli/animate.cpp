@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "compiler/animation/moment.h"
+#include "compiler/cli/child.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/draw.h"
 #include "compiler/cli/film_folder.h"
@@ -14,6 +15,7 @@
 #include "compiler/cli/picture.h"
 #include "compiler/cli/progress_bar.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/driver/fingerprint.h"
 #include "compiler/driver/threads.h"
@@ -33,6 +35,7 @@ struct Film {
   scene::Overrides overrides;  ///< of the command line
   std::shared_ptr<const scene::Animation> animation;
   Diagnostics notes;
+  std::uint64_t max_memory = 0;
 
   [[nodiscard]] scene::Overrides with(const scene::Overrides& more) const {
     scene::Overrides all = overrides;
@@ -44,10 +47,10 @@ struct Film {
   }
 };
 
-Result<Film> open_film(const SceneArguments& arguments) {
+Result<Film> open_film(const SceneArguments& arguments, const Common& common) {
   auto text = driver::open(arguments.scene);
   if (!text) return text.error();
-  Film film{std::move(*text), overrides_of(arguments), nullptr, {}};
+  Film film{std::move(*text), overrides_of(arguments), nullptr, {}, parse_bytes(common.max_memory)};
   const auto read = film.reader()({});
   if (!read) return read.error();
   film.notes = read->notes;
@@ -109,11 +112,11 @@ Result<Moment> next_moment(const Film& film, int frame, const std::optional<Mome
   if (last && differ_in_camera_alone(last->overrides, *overrides)) {
     const auto still = film.reader()(*overrides);
     if (!still) return still.error();
-    const auto eye = place::make_camera(still->scene, last->prepared->interior());
+    const auto eye = driver::eye_of(still->scene, last->prepared->loaded());
     if (!eye) return located(eye.error(), film.animation->span);
     return Moment{std::move(*overrides), last->prepared, last->content, *eye};
   }
-  auto loaded = driver::load(film.text, film.with(*overrides));
+  auto loaded = driver::load(film.text, film.with(*overrides), film.max_memory);
   if (!loaded) return loaded.error();
   Moment moment{std::move(*overrides), nullptr, driver::fingerprint(*loaded->interior), loaded->eye};
   moment.prepared = std::make_shared<const driver::PreparedScene>(std::move(*loaded), options);
@@ -148,7 +151,7 @@ DrawnFrame draw_frame(const Moment& moment, const AnimateArguments& a, PictureFo
     return {drawn.code, drawn.code == kDone ? encoded(drawn.picture, format) : ""};
   }
   const render::Film film =
-      driver::trace_film(*moment.prepared, moment.eye, {a.render.samples}, driver::parallel_executor(common.threads, &interrupted()));
+      driver::trace_film(*moment.prepared, moment.eye, {a.render.samples}, driver::parallel_executor(common.threads));
   return {kDone, format == PictureFormat::exr
                      ? image_io::encode_exr(render::to_float_image(film))
                      : encoded(render::to_image(film, render::Pass::color, moment.prepared->scene().exposure), format)};
@@ -173,7 +176,7 @@ void check_video(const AnimateArguments& a) {
   const std::string ending = lower_case(std::filesystem::path(a.video).extension().string());
   if (ending != ".webm" && ending != ".mp4") throw UsageError(fmt::format("\"{}\": end a video in .webm or .mp4", a.video));
   if (a.format == "exr") throw UsageError("a video is made of frames of 8 bits: --format png");
-  if (run_program({"ffmpeg", "-version"}, true) != 0) throw UsageError("--video needs the program ffmpeg: apt-get install ffmpeg");
+  if (run_child({{"ffmpeg", "-version"}, "/tmp"}) != 0) throw UsageError("--video needs the program ffmpeg: apt-get install ffmpeg");
 }
 
 struct Counts {
@@ -190,7 +193,7 @@ std::string summary(const AnimateArguments& a, const Counts& counts) {
 }  // namespace
 
 int print_moment(const AtArguments& a, const Common& common) {
-  const auto film = open_film(a.scene);
+  const auto film = open_film(a.scene, common);
   if (!film) return print(film.error(), common), kSceneWrong;
   const auto overrides = animation::overrides_at(*film->animation, a.time, film->reader());
   if (!overrides) return print(overrides.error(), common), kSceneWrong;
@@ -209,7 +212,7 @@ int animate(const AnimateArguments& arguments, const Common& common) {
   if (a.render.samples == 0) a.render.samples = kSmooth;
   const PictureFormat format = picture_format_of("frame." + a.format, a.render.engine == "tracer", "pictures of renderers have 8 bits");
   check_video(a);
-  const auto film = open_film(a.render.compile.scene);
+  const auto film = open_film(a.render.compile.scene, common);
   if (!film) return print(film.error(), common), kSceneWrong;
   print(film->notes, common);
   const scene::Animation& animation = *film->animation;
@@ -261,11 +264,12 @@ int animate(const AnimateArguments& arguments, const Common& common) {
       return print({make_error("animation.frames-missing", "the video is made when all frames are there", "draw the others first")},
                    common),
              kSceneWrong;
-    if (const int code = run_program(video_command(folder, a.video, animation.rate), common.quiet); code != 0) return kMachine;
+    const TemporaryFolder temporary;
+    if (run_child({video_command(folder, a.video, animation.rate), temporary.path().string()}) != 0) return kMachine;
     result["video"] = a.video;
   }
   print_result(std::move(result), film->notes, common);
-  if (!common.quiet) fmt::print(stderr, "{}\n", summary(a, counts));
+  if (!common.quiet) print_message(summary(a, counts) + "\n");
   return kDone;
 }
 

@@ -83,11 +83,15 @@ void FilmFolder::write(int frame, const std::string& fingerprint, const std::str
   const Claim manifest_lock(path_of(kManifest) + ".lock", true);
   auto entries = manifest();
   const std::string file = frame_file(frame);
-  entries[std::filesystem::path(file).filename().string()] = fingerprint;
-  // The picture first: an entry without its picture would never be noticed, a picture without its entry is drawn again.
+  const auto write_manifest = [&](const std::string& entry) {
+    entries[std::filesystem::path(file).filename().string()] = entry;
+    const nlohmann::ordered_json json = {{"orbc", "film"}, {"frames", entries}};
+    write_output(path_of(kManifest), json.dump(1) + "\n");
+  };
+  // An end between two of these steps leaves a frame that is ours and is drawn again.
+  write_manifest("");
   write_output(file, bytes);
-  nlohmann::ordered_json json = {{"orbc", "film"}, {"frames", entries}};
-  write_output(path_of(kManifest), json.dump(1) + "\n");
+  write_manifest(fingerprint);
 }
 
 FilmFolder::Claim::Claim(std::string file, bool wait) : file_(std::move(file)) {

@@ -100,4 +100,8 @@ Result<LoadedScene> load(scene::ReadResult read, const mesh::AssetSource& assets
   return loaded;
 }
 
+Result<place::Camera> eye_of(const scene::Scene& scene, const LoadedScene& loaded) {
+  return place::make_camera(in_compiled_unit(scene, loaded.unit_of_length), *loaded.interior);
+}
+
 }  // namespace orbc::driver

@@ -41,4 +41,8 @@ struct LoadedScene {
 /// The same for a scene that has been read, with its meshes and pictures from anywhere. Keeps the notes of reading.
 [[nodiscard]] Result<LoadedScene> load(scene::ReadResult read, const mesh::AssetSource& assets);
 
+/// The eye of a scene, in the author's unit, that differs from a loaded one in its camera alone.
+/// Diagnostics: those of `place::make_camera`.
+[[nodiscard]] Result<place::Camera> eye_of(const scene::Scene& scene, const LoadedScene& loaded);
+
 }  // namespace orbc::driver
