@@ -131,7 +131,10 @@ Result<Path> place_path(const room::Room& room, const scene::PlacePath& spline) 
       const double s = static_cast<double>(k) / kPiecesPerPlace;
       const Point here = bezier(room.space, curve, s);
       if (!path.pieces.empty()) path.length += geometry::distance(room.space, path.pieces.back().at, here);
-      path.pieces.push_back({here, path.length, hermite(heights[at[0]], heights[at[1]], heights[at[2]], heights[at[3]], s), -1, 0});
+      // A height that overshot those of its places could lead through the floor.
+      const auto [low, high] = std::minmax(heights[at[1]], heights[at[2]]);
+      const double z = std::clamp(hermite(heights[at[0]], heights[at[1]], heights[at[2]], heights[at[3]], s), low, high);
+      path.pieces.push_back({here, path.length, z, -1, 0});
     }
   }
   path.length += geometry::distance(room.space, path.pieces.back().at, path.pieces.front().at);

@@ -27,7 +27,7 @@
 namespace orbc::cli {
 namespace {
 
-constexpr int kSmooth = 4;  // samples a pixel
+constexpr int kSamplesOfAFrame = 4;  // samples a pixel
 
 /// The scene's text with what the command line says, and the film that it describes.
 struct Film {
@@ -209,7 +209,7 @@ int print_moment(const AtArguments& a, const Common& common) {
 
 int animate(const AnimateArguments& arguments, const Common& common) {
   AnimateArguments a = arguments;
-  if (a.render.samples == 0) a.render.samples = kSmooth;
+  if (a.render.samples == 0) a.render.samples = kSamplesOfAFrame;
   const PictureFormat format = picture_format_of("frame." + a.format, a.render.engine == "tracer", "pictures of renderers have 8 bits");
   check_video(a);
   const auto film = open_film(a.render.compile.scene, common);

@@ -22,7 +22,7 @@ namespace {
 constexpr int kLeastDigits = 4;
 constexpr const char* kManifest = "manifest.json";
 
-[[noreturn]] void fail(const std::string& what) { throw std::system_error(errno, std::generic_category(), what); }
+[[noreturn]] void fail_with_errno(const std::string& what) { throw std::system_error(errno, std::generic_category(), what); }
 
 /// Whether the file that a descriptor has open is still the one of that name.
 bool is_current(int descriptor, const std::string& file) {
@@ -97,14 +97,14 @@ void FilmFolder::write(int frame, const std::string& fingerprint, const std::str
 FilmFolder::Claim::Claim(std::string file, bool wait) : file_(std::move(file)) {
   for (;;) {
     descriptor_ = ::open(file_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) fail("cannot create " + file_);
+    if (descriptor_ < 0) fail_with_errno("cannot create " + file_);
     const int locked = ::flock(descriptor_, LOCK_EX | (wait ? 0 : LOCK_NB));
     if (locked == 0 && is_current(descriptor_, file_)) return;
     const bool taken = locked != 0 && errno == EWOULDBLOCK;
     const bool failed = locked != 0 && errno != EWOULDBLOCK && errno != EINTR;
     ::close(descriptor_);
     descriptor_ = -1;
-    if (failed) fail("cannot lock " + file_);
+    if (failed) fail_with_errno("cannot lock " + file_);
     if (taken) return;
   }
 }

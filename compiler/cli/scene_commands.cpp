@@ -46,7 +46,8 @@ int new_scene(const NewArguments& a, const Common& common) {
 namespace {
 
 /// What is wrong with a film at four moments of it.
-Diagnostics wrong_moments(const std::string& path, const scene::Overrides& overrides, const scene::Animation& animation, std::uint64_t max_memory) {
+Diagnostics wrong_moments(const std::string& path, const scene::Overrides& overrides, const scene::Animation& animation,
+                          std::uint64_t max_memory) {
   if (path == "-") return {};  // standard input is read once
   const auto text = driver::open(path);
   if (!text) return text.error();
@@ -77,7 +78,8 @@ int check(const CheckArguments& a, const Common& common) {
     auto loaded = driver::load(path, overrides, parse_bytes(common.max_memory));
     if (loaded) append(loaded->notes, without_effect(common.given, {kTraced | kPov | kGltf, false, false, false, 1}, *loaded));
     const bool moves = loaded && loaded->scene.animation;
-    const Diagnostics wrong = moves ? wrong_moments(path, overrides, *loaded->scene.animation, parse_bytes(common.max_memory)) : Diagnostics{};
+    const Diagnostics wrong =
+        moves ? wrong_moments(path, overrides, *loaded->scene.animation, parse_bytes(common.max_memory)) : Diagnostics{};
     Diagnostics found = loaded ? loaded->notes : loaded.error();
     append(found, wrong);
     Common plain = common;

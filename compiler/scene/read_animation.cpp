@@ -70,9 +70,13 @@ WallWalk read_walk(const Fields& fields, const RoomFacts& facts) {
 PlacePath read_path(const Fields& fields, const RoomFacts& facts) {
   PlacePath path;
   const Node& node = *fields.find("path");
-  if (node.kind != NodeKind::list || node.items.size() < 3) {
-    fields.reader().wrong_type(node, "`path`", "a list of at least three places",
-                               "a closed curve goes through them: path: [{polar: [0.2, 0deg]}, …]");
+  const std::string hint = "a closed curve goes through at least three: path: [{polar: [0.2, 0deg]}, …]";
+  if (node.kind != NodeKind::list) {
+    fields.reader().wrong_type(node, "`path`", "a list of places", hint);
+    return path;
+  }
+  if (node.items.size() < 3) {
+    fields.reader().error("scene.out-of-range", node.span, fmt::format("a path of {} places", node.items.size()), hint);
     return path;
   }
   for (const Node& place : node.items) path.places.push_back(read_place(fields.reader(), place, "a place of the path", facts));

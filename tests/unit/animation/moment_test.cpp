@@ -24,7 +24,8 @@ scene::ReadResult read(const std::string& text, const scene::Overrides& override
 }
 
 std::string film_of(const std::string& set, const std::string& orbifold = "*22222") {
-  return "orbc: 1\norbifold: \"" + orbifold + "\"\ncamera: {at: {polar: [0.2, 0deg], z: 0.5}}\nanimation: {frames: 4, set: {" + set + "}}\n";
+  return "orbc: 1\norbifold: \"" + orbifold + "\"\ncamera: {at: {polar: [0.2, 0deg], z: 0.5}}\nanimation: {frames: 4, set: {" + set +
+         "}}\n";
 }
 
 Result<scene::Overrides> overrides_at(const std::string& text, double t) {
@@ -151,7 +152,8 @@ TEST_CASE("a curve goes through its places at constant speed, without a kink, an
       const geometry::Point next = animation::point_at(*path, path->length * (i + 1) / kSteps).at;
       CHECK(geometry::distance(room.space, here, next) == Approx(path->length / kSteps).epsilon(0.01));
       const geometry::Isometry from = geometry::inverse(geometry::translation_to(room.space, here));
-      const std::complex<double> in = geometry::log_from_point(room.space, from * last), out = geometry::log_from_point(room.space, from * next);
+      const std::complex<double> in = geometry::log_from_point(room.space, from * last),
+                                 out = geometry::log_from_point(room.space, from * next);
       turn = std::fmax(turn, std::fabs(std::arg(-out / in)));
       last = here;
     }
@@ -170,15 +172,17 @@ TEST_CASE("what looks ahead looks along its walk, in the frame of its place", "[
   CHECK(gaze.elevation.radians == Approx(-5 * 3.14159265358979 / 180));
   const std::string back = film_of("camera.at: {walk: walls, distance: 0.2, laps: -1}, camera.look_at: {ahead: {lead: 0.001}}");
   const auto other = std::get<scene::LookDirection>(scene_at(back, 0.9).camera.look_at.value);
-  CHECK(std::fabs(std::remainder(other.azimuth.radians - gaze.azimuth.radians, 2 * 3.14159265358979)) > 3.1);  // the same place, the other way
+  CHECK(std::fabs(std::remainder(other.azimuth.radians - gaze.azimuth.radians, 2 * 3.14159265358979)) >
+        3.1);  // the same place, the other way
   CHECK(code_at(film_of("camera.look_at: ahead"), 0) == "animation.nothing-ahead");
 }
 
 TEST_CASE("frames have noise of their own, unless it is locked", "[animation]") {
   for (const bool locked : {false, true}) {
-    const std::string text = std::string("orbc: 1\norbifold: \"*22222\"\nintegrator: path\nbake: {seed: 7}\nlights: [{at: centre, power: 1}]\n") +
-                             "camera: {at: {polar: [0.2, 0deg], z: 0.5}}\nanimation: {frames: 4, set: {exposure: {from: 1, to: 2}}" +
-                             (locked ? ", seed: locked}\n" : "}\n");
+    const std::string text =
+        std::string("orbc: 1\norbifold: \"*22222\"\nintegrator: path\nbake: {seed: 7}\nlights: [{at: centre, power: 1}]\n") +
+        "camera: {at: {polar: [0.2, 0deg], z: 0.5}}\nanimation: {frames: 4, set: {exposure: {from: 1, to: 2}}" +
+        (locked ? ", seed: locked}\n" : "}\n");
     const auto film = read(text);
     const auto again = [&](const scene::Overrides& more) { return scene::read_scene(SourceText{"film.yaml", text}, "", more); };
     const auto frame = animation::overrides_of_frame(*film.scene.animation, 3, again);
@@ -189,8 +193,11 @@ TEST_CASE("frames have noise of their own, unless it is locked", "[animation]") 
 }
 
 TEST_CASE("a document that is printed reads as the same scene", "[animation]") {
-  const std::string text = "orbc: 1\norbifold: \"*22222\"\nroom: {height: 0.9, walls: {all: {mirror: {reflectance: 0.9}}, 1: {mirror: none, color: \"#a0b0c0\"}}}\n"
-                           "objects: [{name: \"a: \\\"b\\\" #c\", sphere: {radius: 0.1}, at: centre}, {box: {size: [0.1, 0.2, 0.3]}, at: {polar: [0.2, 30deg], z: 0.4}}]\n";
+  const std::string text =
+      "orbc: 1\norbifold: \"*22222\"\nroom: {height: 0.9, walls: {all: {mirror: {reflectance: 0.9}}, 1: {mirror: none, color: "
+      "\"#a0b0c0\"}}}\n"
+      "objects: [{name: \"a: \\\"b\\\" #c\", sphere: {radius: 0.1}, at: centre}, {box: {size: [0.1, 0.2, 0.3]}, at: {polar: [0.2, 30deg], "
+      "z: 0.4}}]\n";
   const scene::SceneText source{std::make_shared<const SourceText>(SourceText{"s.yaml", text}), ""};
   const auto document = scene::document_of(source, {});
   REQUIRE(document);
