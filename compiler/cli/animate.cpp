@@ -160,8 +160,9 @@ DrawnFrame draw_frame(const Moment& moment, const AnimateArguments& a, PictureFo
 // ---- the film as a video ------------------------------------------------------------------------------------------------------------
 
 std::vector<std::string> video_command(const FilmFolder& folder, const std::string& output, double rate) {
+  const std::string program = program_in_path("ffmpeg").value_or("ffmpeg");
   std::vector<std::string> command = {
-      "ffmpeg", "-y", "-loglevel", "error", "-framerate", fmt::format("{}", rate), "-i", folder.path_of(folder.pattern())};
+      program, "-y", "-loglevel", "error", "-framerate", fmt::format("{}", rate), "-i", folder.path_of(folder.pattern())};
   const bool webm = lower_case(std::filesystem::path(output).extension().string()) == ".webm";
   // Constant quality, in the pixel format that every player shows; an odd last row or column is left out, as this format asks for.
   const std::vector<std::string> codec = webm ? std::vector<std::string>{"-c:v", "libvpx-vp9", "-crf", "20", "-b:v", "0"}
@@ -176,7 +177,7 @@ void check_video(const AnimateArguments& a) {
   const std::string ending = lower_case(std::filesystem::path(a.video).extension().string());
   if (ending != ".webm" && ending != ".mp4") throw UsageError(fmt::format("\"{}\": end a video in .webm or .mp4", a.video));
   if (a.format == "exr") throw UsageError("a video is made of frames of 8 bits: --format png");
-  if (run_child({{"ffmpeg", "-version"}, "/tmp"}) != 0) throw UsageError("--video needs the program ffmpeg: apt-get install ffmpeg");
+  if (!program_in_path("ffmpeg")) throw UsageError("--video needs the program ffmpeg: apt-get install ffmpeg");
 }
 
 struct Counts {

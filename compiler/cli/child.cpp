@@ -63,22 +63,23 @@ pid_t start(const ChildProgram& program) {
   return child;
 }
 
-bool is_in_path(const std::string& program) {
+}  // namespace
+
+std::optional<std::string> program_in_path(const std::string& program) {
   const char* given = std::getenv("PATH");
   const std::string path = given ? given : "/usr/local/bin:/usr/bin:/bin";
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find(':', begin), path.size());
     const std::string folder = path.substr(begin, end - begin);
-    if (::access(((folder.empty() ? "." : folder) + "/" + program).c_str(), X_OK) == 0) return true;
+    std::string file = (folder.empty() ? "." : folder) + "/" + program;
+    if (::access(file.c_str(), X_OK) == 0) return file;
     begin = end + 1;
   }
-  return false;
+  return std::nullopt;
 }
 
-}  // namespace
-
 Diagnostics missing_renderer(const std::string& engine) {
-  if (is_in_path(engine)) return {};
+  if (program_in_path(engine)) return {};
   const bool blender = engine == "blender";
   return {make_error("cli.not-drawn",
                      fmt::format("{} is not installed: there is no {} on the path", blender ? "Blender" : "POV-Ray", engine),

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ struct ChildProgram {
   std::vector<std::string> arguments;  ///< the program's path first
   std::string temporary_folder;        ///< its TMPDIR: what it leaves there goes with ours
 };
+
+/// The path of a program that is found on PATH, or nothing.
+[[nodiscard]] std::optional<std::string> program_in_path(const std::string& program);
 
 /// What is to be told before the work when a renderer ("povray" or "blender") is not installed; nothing when it is.
 /// Diagnostics: cli.not-drawn.
