@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/notation/parse.h"
+#include "compiler/scene/animation.h"
 #include "compiler/scene/check.h"
 #include "compiler/scene/defaults.h"
 #include "compiler/scene/read.h"
@@ -66,6 +67,9 @@ TEST_CASE("the defaults of the schema are the reader's", "[scene]") {
   REQUIRE(scene.bake.quality == BakeQuality::normal);
   REQUIRE(scene.camera.projection == Projection::perspective);
   REQUIRE(object.turn.degrees() == 0);
+  REQUIRE_FALSE(Animation{}.fixed_noise);
+  REQUIRE(Keyframes{}.interpolation == Interpolation::linear);
+  REQUIRE(WallWalk{}.start == 1);
   REQUIRE(scene.camera.roll.degrees() == 0);
   for (const Angle& angle : object.rotate) REQUIRE(angle.degrees() == 0);
   // By the end of their place in the schema.
@@ -94,7 +98,11 @@ TEST_CASE("the defaults of the schema are the reader's", "[scene]") {
       {"properties/color", srgb(material.color)}, {"properties/pattern", "plain"}, {"properties/cell", material.cell},
       {"properties/roughness", material.roughness}, {"properties/index", material.index}, {"properties/emission", material.emission},
       {"properties/cutoff", material.alpha_cutoff}, {"properties/width", Frame{}.width}, {"properties/reflectance", mirror.reflectance},
-      {"properties/tint", "white"}, {"properties/glow", "black"}};
+      {"properties/tint", "white"}, {"properties/glow", "black"},
+      {"animation/properties/frames", Animation{}.frames}, {"animation/properties/rate", Animation{}.rate},
+      {"animation/properties/seed", "per-frame"}, {"properties/interpolate", "linear"},
+      {"anyOf/3/properties/distance", WallWalk{}.distance}, {"anyOf/3/properties/start", "corner 1"},
+      {"anyOf/3/properties/laps", WallWalk{}.laps}, {"ahead/properties/lead", Ahead{}.lead}, {"ahead/properties/offset", 0}};
   std::map<std::string, Json> told;
   collect(schema(), "", told);
   REQUIRE(told.size() > 60);
