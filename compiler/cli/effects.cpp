@@ -84,6 +84,7 @@ constexpr Row kOptions[] = {
     {"model", kSvg, of_flat_rooms},
     {"colour", kSvg, never},
     {"pass", kTraced, with_all_passes},
+    {"exact", kTraced, without_lamps},
     {"off-edge", kPictures, with_samples},
 };
 

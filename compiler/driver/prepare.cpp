@@ -106,10 +106,12 @@ light::LightingContext baked_lighting(const PreparedScene& scene, const Run& run
   return lighting;
 }
 
-bake::BakeOptions bake_options(const PreparedScene& scene) {
-  bake::BakeOptions options = bake::bake_options(scene.scene().bake);
+bake::BakeOptions bake_options(const PreparedScene& scene) { return bake_options(scene, scene.scene().bake); }
+
+bake::BakeOptions bake_options(const PreparedScene& scene, const scene::BakeSpec& spec) {
+  bake::BakeOptions options = bake::bake_options(spec);
   options.max_side = scene.options().max_atlas_side;
-  options.with_image16 = scene.scene().bake.atlas != scene::AtlasFormat::srgb8;
+  options.with_image16 = spec.atlas != scene::AtlasFormat::srgb8;
   const double extent = std::max(scene.interior().polygon.circumradius, scene.interior().height);
   const double factor = extent < kMinExtent ? 1 / extent : extent > kMaxExtent ? kMaxExtent / extent : 1;
   options.min_density *= factor;

@@ -83,6 +83,8 @@ class PreparedScene {
 /// Options of the bake: densities are meant for rooms of some units of length and for pictures of 800 pixels. They are adapted to much
 /// smaller and larger rooms, and to larger pictures from the scene's own camera.
 [[nodiscard]] bake::BakeOptions bake_options(const PreparedScene& scene);
+/// The same for another bake than the scene's own.
+[[nodiscard]] bake::BakeOptions bake_options(const PreparedScene& scene, const scene::BakeSpec& spec);
 
 /// The room with the colors that surfaces without light show.
 [[nodiscard]] place::Interior with_exposure(place::Interior interior, double exposure);

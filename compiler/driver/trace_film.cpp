@@ -20,7 +20,7 @@ int path_count(const scene::BakeSpec& spec) { return std::max(1, bake::bake_opti
 /// samples there are lit by themselves. In rooms that are larger than a unit of length, most is seen from farther away than that.
 bake::BakeOptions cache_options(const PreparedScene& scene, const place::Camera& eye) {
   constexpr double kDensityPerPixel = 0.25;  // times pixels per radian, which is their density at distance 1
-  bake::BakeOptions options = bake_options(scene);
+  bake::BakeOptions options = bake_options(scene, {});  // whatever the quality of exports
   const double distance = std::max({1.0, scene.interior().polygon.circumradius, scene.interior().height});
   options.min_density /= distance;
   options.max_density = std::clamp(kDensityPerPixel / distance * place::pixels_per_radian(eye), options.min_density, options.max_density);

@@ -51,6 +51,7 @@ TABLE = [
     ('--no-highlights', None, TRACED + SVG, EVERYWHERE),
     ('--max-atlas', '8192', TRACED + SVG, TRACED + SVG),
     ('--pass', 'depth', POV + GLTF, POV + GLTF),
+    ('--exact', None, POV + GLTF, PICTURES),
     ('--view', 'disk', SVG, SVG),
     ('--report', 'report.json', SVG, SVG),
     ('--nodes-per-copy', None, [POV[0]] + SVG, [POV[0]] + SVG),
@@ -58,7 +59,7 @@ TABLE = [
     ('--colour', 'length', POV + GLTF, POV + GLTF),
     ('--samples', '4', [], []),
 ]
-SEEN_IN_PICTURES = {'--pass', '--atlas', '--samples'}
+SEEN_IN_PICTURES = {'--pass', '--exact', '--atlas', '--samples'}
 # Neither what is made, nor where: how the program runs, what it prints, which command it is.
 ABOUT_RUNNING = {'--help', '--quiet', '--verbose', '--json', '--threads', '--max-memory', '--output', '--format', '--engine', '--plan', '--set', '--nodes-per-object'}
 VERIFY_ALONE = {'--blender', '--within', '--threshold', '--off-edge', '--difference', '--keep'}
