@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/base/elementary.h"
 #include "compiler/geometry/chart.h"
 #include "compiler/surface/normals.h"
 
@@ -27,13 +28,13 @@ surface::ShadingPoint shell_point(const geometry::Position& at, const trace::Dir
 LightGrid add_horizontal_grid(LightJob& job, const place::Interior& interior, bool ceiling) {
   const room::Room& room = interior.polygon;
   LightGrid grid{kFloorSide, kFloorSide, 0, job.points.size()};
-  for (const Point& p : room.outline) grid.reach = std::fmax(grid.reach, std::abs(geometry::disk_from_point(room.space, p)));
+  for (const Point& p : room.outline) grid.reach = std::fmax(grid.reach, math::abs(geometry::disk_from_point(room.space, p)));
   if (room.outline.size() < 3) grid.reach = std::fmax(grid.reach, 1.0);
   const double cell = 2 * grid.reach / (kFloorSide - 1);
   for (int j = 0; j < grid.rows; ++j)
     for (int i = 0; i < grid.columns; ++i) {
       const std::complex<double> z(-grid.reach + i * cell, -grid.reach + j * cell);
-      const bool exists = room.space != geometry::Space::hyperbolic || std::abs(z) < 0.999;
+      const bool exists = room.space != geometry::Space::hyperbolic || math::abs(z) < 0.999;
       const Point at = exists ? geometry::point_from_disk(room.space, z) : Point{};
       bool seen = exists;
       for (const room::Wall& wall : room.walls) seen = seen && geometry::value_at(wall.line, at) > 0;
