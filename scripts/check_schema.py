@@ -30,7 +30,7 @@ SCENES = ROOT / "tests" / "scenes"
 SEMANTIC = {
     "scene.no-such-wall", "scene.no-such-corner", "scene.end-wall-mirror", "scene.bad-interval", "scene.above-ceiling", "scene.mirrors-overlap",
     "scene.unknown-object", "scene.looks-at-itself", "scene.duplicate-name", "scene.bad-torus", "scene.picture-too-large", "scene.angle-out-of-range",
-    "scene.not-finite", "scene.outside-space", "scene.cannot-be-masked",
+    "scene.not-finite", "scene.outside-space", "scene.cannot-be-masked", "scene.animation-keys",
 }
 
 
