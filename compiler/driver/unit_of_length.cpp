@@ -15,6 +15,8 @@ template <class... Cases>
 struct Overload : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overload(Cases...) -> Overload<Cases...>;  // clang 14 needs it
 
 geometry::Point scaled(const geometry::Point& p, double factor) { return {p.w, factor * p.x, factor * p.y}; }
 
