@@ -17,11 +17,12 @@ namespace {
 
 using namespace orbc;
 
-std::string mirror_quad(const driver::LoadedScene& loaded, const place::PlacedMirror& mirror) {
+/// A mirror. In: its lengths are multiplied by `factor`, as products have the author's unit of length and loaded scenes one of their own.
+std::string mirror_quad(const driver::LoadedScene& loaded, const place::PlacedMirror& mirror, double factor) {
   const geometry::Isometry eye_from_room = geometry::inverse(loaded.eye.room_from_eye);
   const auto corner = [&](int side, int level) {
     const geometry::Point p = eye_from_room * room::point_on_wall(loaded.interior->polygon, mirror.wall, mirror.span[side]);
-    return fmt::format("<{:.17g},{:.17g},{:.17g}>", p.x, p.y, mirror.height[level]);
+    return fmt::format("<{:.17g},{:.17g},{:.17g}>", factor * p.x, factor * p.y, factor * mirror.height[level]);
   };
   const scene::Color c = mirror.throughput;
   return fmt::format(
@@ -87,11 +88,13 @@ int main(int argc, char** argv) {
   const auto loaded = driver::load(argv[1], {{"max_bounces", "cover.max_bounces=0"}});
   if (!loaded) return fmt::print(stderr, "{}", to_text(loaded.error())), 1;
   driver::Product product;  // of a lit room only camera and background
+  double factor = 1;
   std::string lit;
   if (loaded->scene.lamps.empty()) {
     auto compiled = driver::compile(*loaded, {}, serial_executor());
     if (!compiled) return fmt::print(stderr, "{}", to_text(compiled.error())), 1;
     product = std::move(compiled->product);
+    factor = 1 / loaded->unit_of_length;
   } else {
     auto text = lit_room(*loaded);
     if (!text) return fmt::print(stderr, "{}", to_text(text.error())), 1;
@@ -106,7 +109,7 @@ int main(int argc, char** argv) {
     if (!file.name.empty()) write(out.substr(0, out.rfind('/') + 1) + file.name, file.bytes);
     else {
       file.bytes += "global_settings { assumed_gamma 1.0 adc_bailout 0 max_trace_level 60 }\n" + lit;
-      for (const place::PlacedMirror& mirror : loaded->interior->mirrors) file.bytes += mirror_quad(*loaded, mirror);
+      for (const place::PlacedMirror& mirror : loaded->interior->mirrors) file.bytes += mirror_quad(*loaded, mirror, factor);
       write(out, file.bytes);
     }
   }
