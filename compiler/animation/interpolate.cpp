@@ -95,11 +95,8 @@ Result<Node> mix(const Node& a, const Node& b, double s) {
       "numbers, angles, colours, lists and maps of the same shape run; `interpolate: step` jumps between any two values", b.span);
 }
 
-/// The share of the way that is done at the share s of the time.
-double eased(double s, scene::Interpolation interpolation) {
-  if (interpolation == scene::Interpolation::step) return 0;
-  return interpolation == scene::Interpolation::smooth ? s * s * (3 - 2 * s) : s;
-}
+/// The share of the change that is done at the share s of the time between two keyframes.
+double eased(double s, bool smooth) { return smooth ? s * s * (3 - 2 * s) : s; }
 
 }  // namespace
 
@@ -110,7 +107,8 @@ Result<Node> value_at(const scene::Keyframes& keyframes, double t) {
   if (after == keys.end()) return keys.back().value;
   const scene::Keyframe& before = *(after - 1);
   if (keyframes.interpolation == scene::Interpolation::step) return before.value;
-  return mix(before.value, after->value, eased((t - before.t) / (after->t - before.t), keyframes.interpolation));
+  return mix(before.value, after->value,
+             eased((t - before.t) / (after->t - before.t), keyframes.interpolation == scene::Interpolation::smooth));
 }
 
 }  // namespace orbc::animation

@@ -35,12 +35,12 @@ scene::Overrides overrides_of(const Settings& settings, double t) {
   return overrides;
 }
 
-/// The number of a corner (from 1) of `orbifold.corners.3`, of at most `count`; 0: it is none.
-int corner_number(const std::string& path, std::size_t count) {
+/// The index of the corner that `orbifold.corners.3` names (2), among `count` corners; nothing when there is none.
+std::optional<std::size_t> corner_index(const std::string& path, std::size_t count) {
   const std::string digits = path.substr(kCorners.size());
-  for (std::size_t i = 1; i <= count; ++i)
-    if (digits == std::to_string(i)) return static_cast<int>(i);
-  return 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (digits == std::to_string(i + 1)) return i;
+  return std::nullopt;
 }
 
 /// The notation of a room with corners of real orders: *23(6.5).
@@ -59,8 +59,8 @@ Result<Settings> corner_settings(const scene::Animation& animation, double t, co
   for (const Rational& order : orbifold.corners) orders.push_back(static_cast<double>(order));
   for (const Track& track : animation.tracks) {
     if (!moves_corner(track)) continue;
-    const int corner = corner_number(track.path, orders.size());
-    if (corner == 0)
+    const auto corner = corner_index(track.path, orders.size());
+    if (!corner)
       return make_error("animation.no-such-corner", fmt::format("`{}` is no corner of this room", track.path),
                         fmt::format("corners are orbifold.corners.1 to orbifold.corners.{}", orders.size()), track.path_span);
     const auto* keyframes = std::get_if<scene::Keyframes>(&track.motion);
@@ -70,7 +70,7 @@ Result<Settings> corner_settings(const scene::Animation& animation, double t, co
     if (!order || !(*order > 1) || !(*order <= 1e6))
       return make_error("animation.bad-corner", "the order of a corner is a number greater than 1", "orbifold.corners.3: {from: 6, to: 7}",
                         track.span);
-    orders[static_cast<std::size_t>(corner) - 1] = *order;
+    orders[*corner] = *order;
   }
   Settings settings = {{"orbifold", notation_of(orders)}};
   if (std::any_of(orders.begin(), orders.end(), [](double order) { return order != std::floor(order); }))
@@ -80,9 +80,10 @@ Result<Settings> corner_settings(const scene::Animation& animation, double t, co
 
 /// Something that moves through the room.
 struct Mover {
-  std::string path;  ///< of its place: `camera.at`
-  Path way;
-  double s = 0;  ///< arc length at the moment
+  std::string key;  ///< of its place in the scene: `camera.at`
+  Path path;
+  double s = 0;            ///< arc length on the path at the moment
+  bool backwards = false;  ///< whether s falls with time
 };
 
 std::string place_text(const Path& path, const PathPoint& at) {
@@ -93,16 +94,12 @@ std::string place_text(const Path& path, const PathPoint& at) {
 
 /// The azimuth, in degrees in the frame of the place, of the point that lies `lead` ahead on the path.
 /// Formula: the argument of the log map at the place; its axes are those of the translated frame (place::Camera).
-double azimuth_ahead(const Mover& mover, double lead, bool backwards) {
-  const geometry::Point here = point_at(mover.way, mover.s).at, there = point_at(mover.way, mover.s + (backwards ? -lead : lead)).at;
+double azimuth_ahead(const Mover& mover, double lead) {
+  const geometry::Point here = point_at(mover.path, mover.s).at,
+                        there = point_at(mover.path, mover.s + (mover.backwards ? -lead : lead)).at;
   const std::complex<double> step =
-      geometry::log_from_point(mover.way.space, geometry::inverse(geometry::translation_to(mover.way.space, here)) * there);
+      geometry::log_from_point(mover.path.space, geometry::inverse(geometry::translation_to(mover.path.space, here)) * there);
   return math::atan2(step.imag(), step.real()) * 180 / std::numbers::pi;
-}
-
-bool goes_backwards(const Track& track) {
-  const auto* walk = std::get_if<scene::WallWalk>(&track.motion);
-  return walk && walk->laps < 0;
 }
 
 /// `camera.at` for `camera.look_at`; `objects.statue.at` for `objects.statue.turn`.
@@ -115,15 +112,15 @@ Result<std::vector<Mover>> movers_of(const scene::Animation& animation, double t
   std::vector<Mover> movers;
   for (const Track& track : animation.tracks) {
     if (const auto* walk = std::get_if<scene::WallWalk>(&track.motion)) {
-      auto way = wall_path(room, *walk, track.span);
-      if (!way) return way.error();
-      movers.push_back({track.path, std::move(*way), 0});
-      movers.back().s = t * walk->laps * movers.back().way.length;
+      auto path = wall_path(room, *walk, track.span);
+      if (!path) return path.error();
+      const double s = t * walk->laps * path->length;
+      movers.push_back({track.path, std::move(*path), s, walk->laps < 0});
     } else if (const auto* spline = std::get_if<scene::PlacePath>(&track.motion)) {
-      auto way = place_path(room, *spline);
-      if (!way) return way.error();
-      movers.push_back({track.path, std::move(*way), 0});
-      movers.back().s = t * movers.back().way.length;
+      auto path = place_path(room, *spline);
+      if (!path) return path.error();
+      const double s = t * path->length;
+      movers.push_back({track.path, std::move(*path), s});
     }
   }
   return movers;
@@ -136,14 +133,12 @@ Result<Settings> direction_settings(const scene::Animation& animation, const std
     const auto* ahead = std::get_if<scene::Ahead>(&track.motion);
     if (!ahead) continue;
     const std::string place = place_beside(track.path);
-    const auto mover = std::find_if(movers.begin(), movers.end(), [&](const Mover& m) { return m.path == place; });
+    const auto mover = std::find_if(movers.begin(), movers.end(), [&](const Mover& m) { return m.key == place; });
     if (mover == movers.end())
       return make_error(
           "animation.nothing-ahead", fmt::format("`{}` is to follow its motion, but `{}` does not move along a path", track.path, place),
           fmt::format("add {}: {{walk: walls, distance: 0.15}} or a path of places", place.empty() ? "camera.at" : place), track.span);
-    const auto motion =
-        std::find_if(animation.tracks.begin(), animation.tracks.end(), [&](const Track& other) { return other.path == place; });
-    const double azimuth = azimuth_ahead(*mover, ahead->lead, goes_backwards(*motion)) + ahead->offset.radians * 180 / std::numbers::pi;
+    const double azimuth = azimuth_ahead(*mover, ahead->lead) + ahead->offset.radians * 180 / std::numbers::pi;
     const std::string key = track.path.substr(track.path.rfind('.') + 1);
     if (key == "look_at")
       settings.emplace_back(
@@ -181,7 +176,7 @@ Result<scene::Overrides> overrides_at(const scene::Animation& animation, double 
   if (!room) return located(room.error(), animation.span);
   const auto movers = movers_of(animation, t, *room);
   if (!movers) return movers.error();
-  for (const Mover& mover : *movers) settings.emplace_back(mover.path, place_text(mover.way, point_at(mover.way, mover.s)));
+  for (const Mover& mover : *movers) settings.emplace_back(mover.key, place_text(mover.path, point_at(mover.path, mover.s)));
   const auto directions = direction_settings(animation, *movers);
   if (!directions) return directions.error();
   append(settings, *directions);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "compiler/animation/moment.h"
@@ -123,6 +124,13 @@ Result<Moment> next_moment(const Film& film, int frame, const std::optional<Mome
   return moment;
 }
 
+/// All options that change the pixels of a frame, as text.
+std::string options_text(const AnimateArguments& a) {
+  const CompileArguments& c = a.render.compile;
+  return fmt::format("{} {} {} {} {} {} {} {}", a.render.engine, a.render.samples, a.format, c.tolerance, c.max_triangles.value_or(0),
+                     c.no_lod, c.highlights, c.max_atlas);
+}
+
 /// What a frame is made of, in 16 digits: program, scene, contents of its files, options.
 Result<std::string> fingerprint_of(const Film& film, const Moment& moment, const std::string& options) {
   const auto document = scene::document_of(film.text, film.with(moment.overrides));
@@ -150,8 +158,7 @@ DrawnFrame draw_frame(const Moment& moment, const AnimateArguments& a, PictureFo
     Drawn drawn = draw_elsewhere(driver::PreparedScene(std::move(loaded), moment.prepared->options()), a.render, quiet);
     return {drawn.code, drawn.code == kDone ? encoded(drawn.picture, format) : ""};
   }
-  const render::Film film =
-      driver::trace_film(*moment.prepared, moment.eye, {a.render.samples}, driver::parallel_executor(common.threads));
+  const render::Film film = driver::trace_film(*moment.prepared, moment.eye, {a.render.samples}, driver::parallel_executor(common.threads));
   return {kDone, format == PictureFormat::exr
                      ? image_io::encode_exr(render::to_float_image(film))
                      : encoded(render::to_image(film, render::Pass::color, moment.prepared->scene().exposure), format)};
@@ -191,6 +198,65 @@ std::string summary(const AnimateArguments& a, const Counts& counts) {
   return text;
 }
 
+enum class FrameState { drawn, kept, elsewhere, failed };
+
+/// What has become of a frame; a failure has been printed, and has an exit code.
+struct MadeFrame {
+  FrameState state;
+  int code = kDone;
+};
+
+/// Draws a frame unless it is there and still true, or another process is drawing it.
+MadeFrame make_frame(const FilmFolder& folder, int frame, const std::string& fingerprint, const std::function<DrawnFrame()>& draw) {
+  if (folder.has(frame, fingerprint)) return {FrameState::kept};
+  const FilmFolder::Claim claim = folder.claim(frame);
+  if (!claim.held()) return {FrameState::elsewhere};
+  if (folder.has(frame, fingerprint)) return {FrameState::kept};  // another process has drawn it between the two questions
+  const DrawnFrame drawn = draw();
+  if (drawn.code != kDone) return {FrameState::failed, drawn.code};
+  folder.write(frame, fingerprint, drawn.bytes);
+  return {FrameState::drawn};
+}
+
+/// What has become of the frames of a range; a failure has been printed, and has an exit code.
+struct DrawnFrames {
+  Counts counts;
+  int code = kDone;
+};
+
+DrawnFrames draw_frames(const Film& film, const FrameRange& range, const FilmFolder& folder, const AnimateArguments& a,
+                        const Common& common) {
+  const PictureFormat format = picture_format_of("frame." + a.format, a.render.engine == "tracer", "pictures of renderers have 8 bits");
+  ProgressBar bar(!common.quiet && stderr_is_terminal());
+  const Progress progress = bar.progress();
+  Counts counts;
+  std::optional<Moment> last;
+  for (int frame = range.begin; frame < range.end; ++frame) {
+    report(progress, "drawing", static_cast<std::uint64_t>(frame - range.begin), static_cast<std::uint64_t>(range.end - range.begin));
+    auto moment = next_moment(film, frame, last, prepare_options(a.render.compile));
+    if (!moment) return bar.clear(), print(moment.error(), common), DrawnFrames{counts, kSceneWrong};
+    last = std::move(*moment);
+    const auto fingerprint = fingerprint_of(film, *last, options_text(a));
+    if (!fingerprint) return bar.clear(), print(fingerprint.error(), common), DrawnFrames{counts, kSceneWrong};
+    const MadeFrame made = make_frame(folder, frame, *fingerprint, [&] { return draw_frame(*last, a, format, common); });
+    switch (made.state) {
+      case FrameState::drawn:
+        ++counts.drawn;
+        break;
+      case FrameState::kept:
+        ++counts.kept;
+        break;
+      case FrameState::elsewhere:
+        ++counts.elsewhere;
+        break;
+      case FrameState::failed:
+        return {counts, made.code};
+    }
+  }
+  bar.clear();
+  return {counts};
+}
+
 }  // namespace
 
 int print_moment(const AtArguments& a, const Common& common) {
@@ -211,62 +277,36 @@ int print_moment(const AtArguments& a, const Common& common) {
 int animate(const AnimateArguments& arguments, const Common& common) {
   AnimateArguments a = arguments;
   if (a.render.samples == 0) a.render.samples = kSamplesOfAFrame;
-  const PictureFormat format = picture_format_of("frame." + a.format, a.render.engine == "tracer", "pictures of renderers have 8 bits");
+  (void)picture_format_of("frame." + a.format, a.render.engine == "tracer", "pictures of renderers have 8 bits");
   check_video(a);
+  if (a.render.engine != "tracer")
+    if (const Diagnostics missing = missing_renderer(a.render.engine); !missing.empty()) return print(missing, common), kMachine;
   const auto film = open_film(a.render.compile.scene, common);
   if (!film) return print(film.error(), common), kSceneWrong;
   print(film->notes, common);
-  const scene::Animation& animation = *film->animation;
-  const FrameRange range = frame_range(a.frames, animation.frames);
-  const FilmFolder folder(a.folder, "." + a.format, animation.frames);
+  const FrameRange range = frame_range(a.frames, film->animation->frames);
+  const FilmFolder folder(a.folder, "." + a.format, film->animation->frames);
   if (const auto foreign = folder.foreign_frame(range.begin, range.end))
     return print({make_error("animation.foreign-frame", fmt::format("{} was not drawn by orbc animate", *foreign),
                              "move it away, or choose another folder")},
                  common),
            kSceneWrong;
-  const std::string options = fmt::format("{} {} {} {}", a.render.engine, a.render.samples, a.format, a.render.compile.tolerance);
-  ProgressBar bar(!common.quiet && stderr_is_terminal());
-  Progress progress = bar.progress();
-  Counts counts;
-  std::optional<Moment> last;
-  for (int frame = range.begin; frame < range.end; ++frame) {
-    report(progress, "drawing", static_cast<std::uint64_t>(frame - range.begin), static_cast<std::uint64_t>(range.end - range.begin));
-    auto moment = next_moment(*film, frame, last, prepare_options(a.render.compile));
-    if (!moment) return bar.clear(), print(moment.error(), common), kSceneWrong;
-    last = std::move(*moment);
-    const auto fingerprint = fingerprint_of(*film, *last, options);
-    if (!fingerprint) return bar.clear(), print(fingerprint.error(), common), kSceneWrong;
-    if (folder.has(frame, *fingerprint)) {
-      ++counts.kept;
-      continue;
-    }
-    const FilmFolder::Claim claim = folder.claim(frame);
-    if (!claim.held()) {
-      ++counts.elsewhere;
-      continue;
-    }
-    if (folder.has(frame, *fingerprint)) {
-      ++counts.kept;
-      continue;
-    }  // drawn by another while this one looked
-    const DrawnFrame drawn = draw_frame(*last, a, format, common);
-    if (drawn.code != kDone) return drawn.code;
-    folder.write(frame, *fingerprint, drawn.bytes);
-    ++counts.drawn;
-  }
-  bar.clear();
+  const DrawnFrames frames = draw_frames(*film, range, folder, a, common);
+  if (frames.code != kDone) return frames.code;
+  const Counts& counts = frames.counts;
   nlohmann::ordered_json result = {{"output", a.folder},
                                    {"frames", range.end - range.begin},
                                    {"drawn", counts.drawn},
                                    {"kept", counts.kept},
                                    {"drawn_by_others", counts.elsewhere}};
   if (!a.video.empty()) {
-    if (counts.elsewhere > 0 || folder.manifest().size() < static_cast<std::size_t>(animation.frames))
-      return print({make_error("animation.frames-missing", "the video is made when all frames are there", "draw the others first")},
+    if (counts.drawn + counts.kept < film->animation->frames)
+      return print({make_error("animation.frames-missing", "the video is made when all frames are there",
+                               "draw the others first, then give --video without --frames")},
                    common),
              kSceneWrong;
     const TemporaryFolder temporary;
-    if (run_child({video_command(folder, a.video, animation.rate), temporary.path().string()}) != 0) return kMachine;
+    if (run_child({video_command(folder, a.video, film->animation->rate), temporary.path().string()}) != 0) return kMachine;
     result["video"] = a.video;
   }
   print_result(std::move(result), film->notes, common);

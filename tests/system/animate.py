@@ -91,6 +91,9 @@ with folder() as where:
     still_there = result(orbc('animate', scene, '-o', film, '--samples', '1', '--json', '--set', 'camera.fov=70deg'))
     check(still_there.get('kept') == FRAMES, f'and once only: {still_there}')
 
+    by_option = [result(orbc('animate', scene, '-o', film, '--samples', '1', '--frames', '0', '--json', '--set', 'camera.fov=70deg', *more)).get('drawn') for more in (['--no-highlights'], ['--no-highlights'])]
+    check(by_option == [1, 0], f'so does an option that changes pictures: {by_option}')
+
     # Renderers draw frames as well.
     if shutil.which('povray'):
         film = where / 'povray'

@@ -1,5 +1,5 @@
 import * as app from '../state/app';
-import { get, getScalar } from '../state/splice';
+import { get, getScalar, type Path } from '../state/splice';
 import { Choice, Color, Slider } from './controls';
 import { Icon } from './icons';
 import { TextPane } from './TextPane';
@@ -170,6 +170,37 @@ function Head(p: { title: string; children?: preact.ComponentChildren }) {
   );
 }
 
+function DeleteButton({ path }: { path: Path }) {
+  const remove = () => {
+    app.take(path);
+    app.selection.value = { kind: 'room' };
+  };
+  return (
+    <button aria-label="Delete" title="Delete (Del)" onClick={remove}>
+      <Icon name="bin" />
+    </button>
+  );
+}
+
+/** Where a thing is, in polar coordinates about the room's centre (r in lengths of the scene, angle in degrees). The text of what
+ * `stands` on the floor does not name the height 0. */
+function PlaceSliders(p: { path: Path; place: { r: number; angle: number; z: number }; stands?: boolean }) {
+  const room = app.scene.value!.room;
+  const path = [...p.path, 'at'];
+  const { r, angle, z } = p.place;
+  const at = (radius: number, degrees: number, height: number) => {
+    const polar = `polar: [${app.written(radius)}, ${Number(degrees.toFixed(1))}deg]`;
+    return p.stands && height === 0 ? `{${polar}}` : `{${polar}, z: ${app.written(height)}}`;
+  };
+  return (
+    <>
+      <Slider label="From centre" value={r} min={0} max={room.circumradius} path={path} write={(v) => at(v, angle, z)} />
+      <Slider label="Direction" value={angle} min={0} max={360} unit="°" path={path} write={(v) => at(r, v, z)} />
+      <Slider label="Above floor" value={z} min={0} max={room.height} path={path} write={(v) => at(r, angle, v)} />
+    </>
+  );
+}
+
 const materials = ['marble', 'granite', 'wood', 'gold', 'glass', 'chrome'];
 
 function ObjectInspector({ index }: { index: number }) {
@@ -183,7 +214,6 @@ function ObjectInspector({ index }: { index: number }) {
   const r = Number.isFinite(polar[0]) ? polar[0]! : Math.hypot(x, y);
   const angle = Number.isFinite(polar[1]) ? (polar[1]! + 360) % 360 : ((Math.atan2(y, x) * 180) / Math.PI + 360) % 360;
   const z = Number(getScalar(app.text.value, [...path, 'at', 'z']) ?? 0);
-  const at = (radius: number, degrees: number, height: number) => `{polar: [${app.written(radius)}, ${Number(degrees.toFixed(1))}deg]${height === 0 ? '' : `, z: ${app.written(height)}`}}`;
   const turn = parseFloat(getScalar(app.text.value, [...path, 'turn']) ?? '0');
   const size = getScalar(app.text.value, [...path, 'size']);
   const material = getScalar(app.text.value, [...path, 'material']);
@@ -196,21 +226,10 @@ function ObjectInspector({ index }: { index: number }) {
         <button aria-label="Duplicate" title="Duplicate" onClick={() => duplicate(index)}>
           <Icon name="copy" />
         </button>
-        <button
-          aria-label="Delete"
-          title="Delete (Del)"
-          onClick={() => {
-            app.take(path);
-            app.selection.value = { kind: 'room' };
-          }}
-        >
-          <Icon name="bin" />
-        </button>
+        <DeleteButton path={path} />
       </Head>
       <section>
-        <Slider label="From centre" value={r} min={0} max={s.room.circumradius} path={[...path, 'at']} write={(v) => at(v, angle, z)} />
-        <Slider label="Direction" value={angle} min={0} max={360} unit="°" path={[...path, 'at']} write={(v) => at(r, v, z)} />
-        <Slider label="Above floor" value={z} min={0} max={s.room.height} path={[...path, 'at']} write={(v) => at(r, angle, v)} />
+        <PlaceSliders path={path} place={{ r, angle, z }} stands />
         <div class="row">
           <span class="label">Snap to</span>
           <button class="soft" title="The centre" onClick={() => snap('polar: [0, 0deg]')}>
@@ -331,20 +350,10 @@ function LampInspector({ index }: { index: number }) {
   const path = app.lampPath(index), k = s.room.curvature;
   const [x, y] = g.logMap(k, lamp.at);
   const r = Math.hypot(x, y), angle = ((Math.atan2(y, x) * 180) / Math.PI + 360) % 360, z = lamp.at[3]!;
-  const at = (radius: number, degrees: number, height: number) => `{polar: [${app.written(radius)}, ${Number(degrees.toFixed(1))}deg], z: ${app.written(height)}}`;
   return (
     <div class="view" role="tabpanel">
       <Head title={`Lamp ${index + 1}`}>
-        <button
-          aria-label="Delete"
-          title="Delete (Del)"
-          onClick={() => {
-            app.take(path);
-            app.selection.value = { kind: 'room' };
-          }}
-        >
-          <Icon name="bin" />
-        </button>
+        <DeleteButton path={path} />
       </Head>
       <section>
         <Slider label="Power" value={Number(getScalar(app.text.value, [...path, 'power']) ?? 10)} min={0} max={20} path={[...path, 'power']} />
@@ -352,9 +361,7 @@ function LampInspector({ index }: { index: number }) {
         {(lamp.kind === 'sphere' || lamp.kind === 'disk') && <Slider label="Radius" value={Number(getScalar(app.text.value, [...path, 'radius']) ?? 0.05)} min={0.01} max={0.2} path={[...path, 'radius']} />}
       </section>
       <section>
-        <Slider label="From centre" value={r} min={0} max={s.room.circumradius} path={[...path, 'at']} write={(v) => at(v, angle, z)} />
-        <Slider label="Direction" value={angle} min={0} max={360} unit="°" path={[...path, 'at']} write={(v) => at(r, v, z)} />
-        <Slider label="Above floor" value={z} min={0} max={s.room.height} path={[...path, 'at']} write={(v) => at(r, angle, v)} />
+        <PlaceSliders path={path} place={{ r, angle, z }} />
       </section>
     </div>
   );

@@ -1,4 +1,3 @@
-import { useRef } from 'preact/hooks';
 import * as app from '../state/app';
 import { written, type Path } from '../state/splice';
 
@@ -6,7 +5,6 @@ import { written, type Path } from '../state/splice';
 export function Slider(p: { label: string; value: number; min: number; max: number; path: Path; unit?: string; digits?: number; write?: (x: number) => string }) {
   const write = p.write ?? ((x: number) => written(x) + (p.unit === '°' ? 'deg' : ''));
   const span = p.max - p.min;
-  const dragging = useRef(false);
   return (
     <div class="row">
       <label>{p.label}</label>
@@ -18,14 +16,8 @@ export function Slider(p: { label: string; value: number; min: number; max: numb
         step={span / 400}
         value={p.value}
         style={{ '--v': `${(100 * (Math.min(p.max, Math.max(p.min, p.value)) - p.min)) / span}%` }}
-        onInput={(e) => {
-          dragging.current = true;
-          app.changeWhileDragging(p.path, write(Number(e.currentTarget.value)));
-        }}
-        onChange={() => {
-          dragging.current = false;
-          app.document_.release();
-        }}
+        onInput={(e) => app.changeWhileDragging(p.path, write(Number(e.currentTarget.value)))}
+        onChange={() => app.document_.release()}
       />
       <span class="number">
         <input
