@@ -178,7 +178,7 @@ Row text() {
           {{"UTF-8, UTF-16 with a mark; lines of Unix, Windows and old Macs",
             [] {
               std::string windows = tetra_obj();
-              for (std::size_t at = 0; (at = windows.find('\n', at)) != windows.npos; at += 2) windows.insert(at, "\r");
+              for (std::size_t at = 0; (at = windows.find('\n', at)) != windows.npos; at += 2) windows.insert(at, 1, '\r');
               for (const std::string& same :
                    {as_utf16(tetra_obj()), std::string("\xef\xbb\xbf").append(tetra_obj()), with_carriage_returns(tetra_obj()), windows})
                 if (triangles_of(must_read("p.obj", same)) != 4) return false;
