@@ -139,6 +139,13 @@ Compared compare_with(const std::string& engine, const driver::PreparedScene& sc
   return {kDone, std::move(by_engine.picture), verdict, by_engine.exported.notes};
 }
 
+/// Whether the command line says how finely light is baked.
+bool asks_quality(const SceneArguments& a) {
+  return !a.quality.empty() || std::any_of(a.set.begin(), a.set.end(), [](const std::string& text) {
+    return text.rfind("bake.quality=", 0) == 0 || text.rfind("bake=", 0) == 0;
+  });
+}
+
 }  // namespace
 
 int verify(const VerifyArguments& a, const Common& common) {
@@ -156,9 +163,10 @@ int verify(const VerifyArguments& a, const Common& common) {
   append(loaded->notes, leave_out_lens(*loaded));
   print(loaded->notes, common);
   ProgressBar bar(!common.quiet && stderr_is_terminal());
-  // The two roads are compared at the quality of their best export, whatever quality the scene asks for.
+  // The two roads are compared at the quality of their best export, whatever quality the scene asks for. A quality that the command line
+  // asks for holds.
   const scene::BakeQuality path_quality = loaded->scene.bake.quality;
-  if (a.compile.scene.quality.empty()) loaded->scene.bake.quality = scene::BakeQuality::fine;
+  if (!asks_quality(a.compile.scene)) loaded->scene.bake.quality = scene::BakeQuality::fine;
   const driver::PreparedScene scene(*loaded, prepare_options(a.compile));
   const render::Film film = driver::trace_film(scene, loaded->eye, {.samples = a.samples, .exact = true, .path_quality = path_quality},
                                                driver::parallel_executor(common.threads), bar.progress());

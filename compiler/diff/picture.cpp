@@ -9,6 +9,7 @@
 #include "compiler/image/srgb.h"
 #include "compiler/image_io/decode.h"
 #include "compiler/image_io/exr.h"
+#include "compiler/image_io/png.h"
 #include "compiler/scene/color.h"
 
 namespace orbc::diff {
@@ -33,13 +34,16 @@ void take_pixel(double steps, const Limits& limits, Finding& finding, const std:
   if (!finding.differs) finding.differ(place());
 }
 
-void compare_codes(const image::Image& a, const image::Image& b, const PixelPlace& place, const Limits& limits, Finding& finding) {
+/// Compares pictures whose channels are codes; 255 or 65535 of them are white.
+template <typename Picture>
+void compare_codes(const Picture& a, const Picture& b, const PixelPlace& place, const Limits& limits, Finding& finding) {
   const auto width = static_cast<std::size_t>(a.width);
+  constexpr double kPerStep = sizeof(a.rgba[0]) == 1 ? 1 : 257;
   for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
-    int steps = 0;
-    for (std::size_t c = 0; c < 4; ++c) steps = std::max(steps, std::abs(a.rgba[i + c] - b.rgba[i + c]));
-    take_pixel(steps, limits, finding, [&] {
-      const auto text = [&](const image::Image& image) {
+    int codes = 0;
+    for (std::size_t c = 0; c < 4; ++c) codes = std::max(codes, std::abs(int{a.rgba[i + c]} - int{b.rgba[i + c]}));
+    take_pixel(codes / kPerStep, limits, finding, [&] {
+      const auto text = [&](const Picture& image) {
         return fmt::format("({}, {}, {}, {})", image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3]);
       };
       return place.at(i / 4 % width, i / 4 / width, text(a) + " against " + text(b));
@@ -96,6 +100,24 @@ Diagnostics compare_exr(const EncodedPicture& a, const EncodedPicture& b, const 
   return {};
 }
 
+/// Whether a PNG file has 16 bits a channel: the byte after width and height of its header says so.
+bool is_deep_png(std::string_view bytes) {
+  constexpr std::size_t kBitDepth = 24;
+  return image_io::is_png(bytes) && bytes.size() > kBitDepth && bytes[kBitDepth] == 16;
+}
+
+/// Both pictures are an image::Image or an image_io::DeepImage.
+template <typename Picture>
+Diagnostics compare_decoded(const Result<Picture>& left, const Result<Picture>& right, const PixelPlace& place, const Limits& limits,
+                            Finding& finding) {
+  if (!left) return {bad_file(left.error().front().message, "as a picture it cannot be read")};
+  if (!right) return {bad_file(right.error().front().message, "as a picture it cannot be read")};
+  if (left->width == right->width && left->height == right->height)
+    return compare_codes(*left, *right, place, limits, finding), Diagnostics{};
+  const auto size = [](const Picture& image) { return fmt::format("{} x {} pixels", image.width, image.height); };
+  return finding.differ_in_structure({place.a.name, place.b.name, size(*left) + " against " + size(*right)}), Diagnostics{};
+}
+
 }  // namespace
 
 Diagnostics compare_pictures(const EncodedPicture& a, const EncodedPicture& b, const Limits& limits, Finding& finding) {
@@ -103,15 +125,10 @@ Diagnostics compare_pictures(const EncodedPicture& a, const EncodedPicture& b, c
   if (image_io::is_exr(a.bytes) != image_io::is_exr(b.bytes))
     return finding.differ_in_structure({a.name, b.name, "one of the pictures is EXR, the other is not"}), Diagnostics{};
   if (image_io::is_exr(a.bytes)) return compare_exr(a, b, limits, finding);
-  const auto left = image_io::decode_image(a.bytes, a.name), right = image_io::decode_image(b.bytes, b.name);
-  if (!left) return {bad_file(left.error().front().message, "as a picture it cannot be read")};
-  if (!right) return {bad_file(right.error().front().message, "as a picture it cannot be read")};
-  if (left->width != right->width || left->height != right->height) {
-    const auto size = [](const image::Image& image) { return fmt::format("{} x {} pixels", image.width, image.height); };
-    return finding.differ_in_structure({a.name, b.name, size(*left) + " against " + size(*right)}), Diagnostics{};
-  }
-  compare_codes(*left, *right, {a, b}, limits, finding);
-  return {};
+  const bool deep = is_deep_png(a.bytes) || is_deep_png(b.bytes);
+  if (deep && image_io::is_png(a.bytes) && image_io::is_png(b.bytes))
+    return compare_decoded(image_io::decode_deep_png(a.bytes, a.name), image_io::decode_deep_png(b.bytes, b.name), {a, b}, limits, finding);
+  return compare_decoded(image_io::decode_image(a.bytes, a.name), image_io::decode_image(b.bytes, b.name), {a, b}, limits, finding);
 }
 
 }  // namespace orbc::diff

@@ -6,8 +6,11 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <csetjmp>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 #include "compiler/base/check.h"
@@ -80,6 +83,64 @@ bool write_rows(png_structp png, png_infop info, const image::Image16& image, co
   return true;
 }
 
+/// What is left of a file that is read piece by piece.
+struct ReadPosition {
+  std::string_view rest;
+};
+
+void read_some(png_structp png, png_bytep data, png_size_t count) {
+  auto& position = *static_cast<ReadPosition*>(png_get_io_ptr(png));
+  if (count > position.rest.size()) png_error(png, "the file is truncated");
+  std::copy_n(position.rest.begin(), count, data);
+  position.rest.remove_prefix(count);
+}
+
+/// What libpng said when it gave up. It leaves by longjmp, so its text stands in a plain array.
+struct PngComplaint {
+  std::array<char, 128> text{};
+};
+
+void complain(png_structp png, png_const_charp message) {
+  auto& complaint = *static_cast<PngComplaint*>(png_get_error_ptr(png));
+  std::strncpy(complaint.text.data(), message, complaint.text.size() - 1);
+  png_longjmp(png, 1);
+}
+void ignore_warning(png_structp, png_const_charp) {}
+
+// Errors of libpng leave by longjmp, as in write_rows: what has a destructor stands outside.
+bool read_header(png_structp png, png_infop info) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_read_info(png, info);
+  return true;
+}
+
+bool read_codes(png_structp png, png_infop info, DeepImage& image, std::vector<png_bytep>& rows) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_expand_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xffff, PNG_FILLER_AFTER);
+  if (std::endian::native == std::endian::little) png_set_swap(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  const auto width = static_cast<std::size_t>(image.width);
+  for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = reinterpret_cast<png_bytep>(image.rgba.data() + y * width * 4);
+  png_read_image(png, rows.data());
+  png_read_end(png, nullptr);
+  return true;
+}
+
+/// Owns libpng's state while a picture is read.
+struct PngReader {
+  PngComplaint complaint;
+  png_structp png;
+  png_infop info;
+  PngReader()
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, complain, ignore_warning)), info(png_create_info_struct(png)) {}
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+};
+
 }  // namespace
 
 bool is_png(std::string_view bytes) { return bytes.substr(0, 4) == "\x89PNG"; }
@@ -94,6 +155,19 @@ Result<image::Image> decode_png(std::string_view bytes, const std::string& name,
   image::Image image{static_cast<int>(png.state.width), static_cast<int>(png.state.height),
                      std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png.state))};
   if (!png_image_finish_read(&png.state, nullptr, image.rgba.data(), 0, nullptr)) return bad_image(name, png.state.message);
+  return image;
+}
+
+Result<DeepImage> decode_deep_png(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+  PngReader reader;
+  ReadPosition position{bytes};
+  png_set_read_fn(reader.png, &position, read_some);
+  if (!read_header(reader.png, reader.info)) return bad_image(name, reader.complaint.text.data());
+  const auto width = png_get_image_width(reader.png, reader.info), height = png_get_image_height(reader.png, reader.info);
+  if (auto wrong = check_size(width, height, name, limits); !wrong.empty()) return wrong;
+  DeepImage image{static_cast<int>(width), static_cast<int>(height), std::vector<std::uint16_t>(std::size_t{4} * width * height)};
+  std::vector<png_bytep> rows(height);
+  if (!read_codes(reader.png, reader.info, image, rows)) return bad_image(name, reader.complaint.text.data());
   return image;
 }
 

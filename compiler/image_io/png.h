@@ -1,6 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "compiler/base/result.h"
 #include "compiler/image/image.h"
@@ -12,6 +14,15 @@ namespace orbc::image_io {
 [[nodiscard]] bool is_png(std::string_view bytes);
 /// Decodes a PNG picture. Diagnostics: as decode_image.
 [[nodiscard]] Result<image::Image> decode_png(std::string_view bytes, const std::string& name, const ImageLimits& limits = {});
+
+/// A picture of 16 bits a channel with alpha; width × height × 4 codes, rows from top to bottom. Codes of 8 bits are times 257.
+struct DeepImage {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> rgba;
+};
+/// The codes of a PNG picture as they stand in the file, in as many bits as it has. Grey becomes RGB, a missing alpha 65535.
+/// Diagnostics: as decode_image.
+[[nodiscard]] Result<DeepImage> decode_deep_png(std::string_view bytes, const std::string& name, const ImageLimits& limits = {});
 
 // Encoders. The same picture always gives the same bytes: no time stamp and no text is written. The picture must have pixels.
 

@@ -167,6 +167,25 @@ TEST_CASE("pictures are compared in steps, and the pixel that differs most is na
   CHECK(compare(Form::picture, source("a.png", a), source("b.exr", image_io::encode_exr(deep)), {}).value().differs);
 }
 
+TEST_CASE("PNG pictures of 16 bits are compared in all of their bits", "[diff]") {
+  image::Image16 deep{2, 1, {0, 1000, 65535, 3, 4, 5}}, moved = deep;
+  moved.rgb[1] = 1064;  // a quarter of a step: the same in 8 bits
+  const std::string a = image_io::encode_png(deep), b = image_io::encode_png(moved);
+  const Finding exact = compare(Form::picture, source("a.png", a), source("b.png", b), {}).value();
+  CHECK(exact.differs);
+  CHECK(exact.first.at == "a.png, pixel (0, 0)");
+  CHECK(exact.largest_step == Approx(64 / 257.0));
+  CHECK_FALSE(compare(Form::picture, source("a.png", a), source("b.png", b), {0, 1}).value().differs);
+  CHECK_FALSE(compare(Form::picture, source("a.png", a), source("b.png", a), {}).value().differs);
+  // Against a picture of 8 bits, whose code 128 is 128 * 257 of 65535.
+  const image::Image flat{1, 1, {128, 128, 128, 255}};
+  const image::Image16 same{1, 1, {128 * 257, 128 * 257, 128 * 257}};
+  CHECK_FALSE(
+      compare(Form::picture, source("a.png", image_io::encode_png(flat)), source("b.png", image_io::encode_png(same)), {}).value().differs);
+  for (std::size_t length = 30; length < a.size(); length += 5)
+    CHECK_FALSE(compare(Form::picture, source("a.png", a.substr(0, length)), source("b.png", b), {}).has_value());
+}
+
 TEST_CASE("pictures that a scene names are looked into, beside it and inlined", "[diff]") {
   image::Image one{1, 1, {1, 2, 3, 255}}, other{1, 1, {1, 2, 5, 255}};
   const auto folder = std::filesystem::path(ORBC_BINARY_DIR) / "diff_test";
