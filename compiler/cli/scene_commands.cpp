@@ -7,6 +7,7 @@
 #include "compiler/cli/effects.h"
 #include "compiler/cli/expanded_star.h"
 #include "compiler/cli/result.h"
+#include "compiler/cli/scene_report.h"
 #include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
 #include "compiler/notation/euler.h"
@@ -72,6 +73,7 @@ int check(const CheckArguments& a, const Common& common) {
   if (std::count(a.scenes.begin(), a.scenes.end(), "-") > 1) throw UsageError("standard input can be read once: give - once");
   int code = kDone;
   Diagnostics all;
+  nlohmann::ordered_json reports = nlohmann::ordered_json::array();
   scene::Overrides overrides;
   append_set(a.set, overrides);
   for (const std::string& path : a.scenes) {
@@ -86,13 +88,19 @@ int check(const CheckArguments& a, const Common& common) {
     plain.json = false;
     if (!common.json) print(found, plain);
     all.insert(all.end(), found.begin(), found.end());
-    if (!loaded || has_error(wrong)) code = kSceneWrong;
-    else if (!common.quiet && !common.json)
+    const bool is_right = loaded && !has_error(wrong);
+    if (!is_right) code = kSceneWrong;
+    if (is_right && common.verbose) reports.push_back(scene_report(path, *loaded));
+    if (is_right && !common.quiet && !common.json) {
       print_message(fmt::format("{}: {} is all right ({} walls, {} objects, {} lights)\n", path == "-" ? "standard input" : path,
                  notation::to_text(loaded->scene.orbifold), loaded->interior->polygon.walls.size(), loaded->scene.objects.size(),
                  loaded->scene.lamps.size()));
+      if (common.verbose) print_message(report_text(reports.back()));
+    }
   }
-  if (common.json) write_standard_output(fmt::format("{{\"ok\": {}, \"diagnostics\": {}}}\n", code == kDone, to_json(all)));
+  if (common.json)
+    write_standard_output(fmt::format("{{\"ok\": {}, {}\"diagnostics\": {}}}\n", code == kDone,
+                                      common.verbose ? "\"scenes\": " + reports.dump() + ", " : "", to_json(all)));
   return code;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -45,9 +46,19 @@ struct Polygon {
 /// Diagnostics: room.no-such-shape (only with corners wider than π/2), room.no-certificate (too wide for 50 digits).
 [[nodiscard]] Result<Polygon> polygon_with_cuts(const std::vector<CornerAngle>& angles, const std::vector<scene::Cut>& cuts);
 
-/// The hyperbolic polygon with these angles and N − 3 given side lengths (wall from 1 → length); not centred.
-/// Diagnostics: room.bad-lengths (number or value of the lengths), room.no-such-shape.
-[[nodiscard]] Result<Polygon> polygon_with_lengths(const std::vector<CornerAngle>& angles, const std::map<int, double>& lengths);
+/// The hyperbolic polygon with these angles and N − 3 given side lengths (wall from 1 → length, more than 0); not centred. Nothing when
+/// there is none.
+[[nodiscard]] std::optional<Polygon> polygon_with_lengths(const std::vector<CornerAngle>& angles, const std::map<int, Real>& lengths);
+
+/// The hyperbolic polygon with these angles whose side lengths are those of `shape.lengths` and obey `shape.relations`, N − 3 in all; not
+/// centred.
+/// In:          `tangential`, the tangential polygon with these angles.
+/// Makes:       of several solutions the one that is reached from the tangential polygon when its lengths are moved straight to those that
+///              are wanted.
+/// Error:       relations hold to 1e-25 of the length.
+/// Diagnostics: room.bad-lengths (number or value of lengths, relations in a circle), room.no-such-shape.
+[[nodiscard]] Result<Polygon> polygon_with_wanted_lengths(const std::vector<CornerAngle>& angles, const scene::Shape& shape,
+                                                          const Polygon& tangential);
 
 /// H²: computes the corners from the lines. Nothing when neighbours do not meet, or a wall would run backwards.
 [[nodiscard]] std::optional<Polygon> closed_polygon(std::vector<RealVector> lines);

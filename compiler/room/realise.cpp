@@ -43,8 +43,9 @@ Diagnostics shape_faults(const Shape& shape, Space space, bool strip, bool recta
   if (shape.aspect != 1 && !rectangle) faults.push_back(unused("aspect", "for *2222"));
   if (shape.strip_length != 4 && !strip) faults.push_back(unused("strip_length", "for the strips ** and *22∞"));
   if (!shape.cuts.empty() && shape.kind != ShapeKind::paper) faults.push_back(unused("cuts", "with shape: paper"));
-  if (!shape.lengths.empty() && shape.kind != ShapeKind::lengths) faults.push_back(unused("lengths", "with shape: lengths"));
-  const bool chosen = !shape.cuts.empty() || (shape.kind == ShapeKind::lengths && !shape.lengths.empty());
+  const bool has_lengths = !shape.lengths.empty() || !shape.relations.empty();
+  if (has_lengths && shape.kind != ShapeKind::lengths) faults.push_back(unused("lengths", "with shape: lengths"));
+  const bool chosen = !shape.cuts.empty() || (shape.kind == ShapeKind::lengths && has_lengths);
   if (chosen && space != Space::hyperbolic)
     faults.push_back(make_error(
         "room.shape-needs-hyperbolic", "cuts and side lengths shape hyperbolic rooms only",
@@ -65,12 +66,12 @@ Result<Polygon> hyperbolic_polygon(const std::vector<CornerAngle>& angles, const
     if (!polygon) return std::move(polygon).error();
     return centred(*polygon);
   }
-  auto polygon = polygon_with_lengths(angles, shape.lengths);
+  auto polygon = polygon_with_wanted_lengths(angles, shape, *tangential);
   if (polygon) return centred(*polygon);
   Diagnostics errors = std::move(polygon).error();
   std::string sides;
-  for (const auto& [wall, length] : shape.lengths)
-    if (wall >= 1 && wall <= walls && sides.size() < 200)
+  for (int wall = 1; wall <= walls; ++wall)
+    if (sides.size() < 200)
       sides += fmt::format("{}{}: {:.4f}", sides.empty() ? "" : ", ", wall,
                            static_cast<double>(side_length(*tangential, static_cast<std::size_t>(wall - 1))));
   for (Diagnostic& error : errors)

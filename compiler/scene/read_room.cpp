@@ -42,17 +42,50 @@ std::vector<Cut> read_cuts(Reader& reader, const Node& node, double length, cons
   return cuts;
 }
 
-std::map<int, double> read_lengths(Reader& reader, const Node& node, const RoomFacts& facts) {
-  std::map<int, double> lengths;
+/// "wall 3", "1.5 wall 3" or "1.5 * wall 3": the length of a wall as a multiple of another's. Nothing if the text is of another form.
+std::optional<LengthRelation> relation_of(int wall, const std::string& text) {
+  const auto trimmed = [](std::string_view part, std::string_view marks) {
+    part.remove_prefix(std::min(part.find_first_not_of(" "), part.size()));
+    return part.substr(0, part.find_last_not_of(marks) + 1);
+  };
+  const auto number = [](std::string_view part) {
+    Node node;
+    node.kind = NodeKind::scalar;
+    node.text = part;
+    return number_of(node);
+  };
+  const std::size_t name = text.find("wall");
+  if (name == std::string::npos) return std::nullopt;
+  const std::string_view before = trimmed(std::string_view(text).substr(0, name), " *"),
+                         after = trimmed(std::string_view(text).substr(name + 4), " ");
+  const auto factor = before.empty() ? std::optional<double>(1) : number(before), of = number(after);
+  if (!factor || !of || !(*factor > 0 && *factor <= 1000) || !(*of >= 1 && *of <= 999'999) || *of != static_cast<int>(*of))
+    return std::nullopt;
+  return LengthRelation{wall, *factor, static_cast<int>(*of)};
+}
+
+void read_lengths(Reader& reader, const Node& node, const RoomFacts& facts, Shape& shape) {
   if (node.kind != NodeKind::map) {
     reader.wrong_type(node, "`lengths`", "a map of wall numbers to side lengths", "write {1: 0.8, 2: 1.1}");
-    return lengths;
+    return;
   }
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
     const int wall = read_wall_number(reader, node.keys[i], facts);
-    lengths[wall] = reader.number(node.items[i], fmt::format("the length of wall {}", wall), 1, kLength);
+    const Node& item = node.items[i];
+    if (item.kind != NodeKind::scalar || item.text.find("wall") == std::string::npos) {
+      shape.lengths[wall] = reader.number(item, fmt::format("the length of wall {}", wall), 1, kLength);
+      continue;
+    }
+    const auto relation = relation_of(wall, item.text);
+    if (!relation)
+      reader.wrong_type(item, fmt::format("the length of wall {}", wall), "a number, or a multiple of another wall's length",
+                        "write 0.8, wall 3 or 1.5 wall 3");
+    else if (facts.walls > 0 && (relation->of < 1 || relation->of > facts.walls))
+      reader.error("scene.no-such-wall", item.span, fmt::format("there is no wall {}", relation->of),
+                   fmt::format("this room has walls 1 to {}", facts.walls));
+    else shape.relations.push_back(*relation);
   }
-  return lengths;
+  std::sort(shape.relations.begin(), shape.relations.end(), [](const auto& a, const auto& b) { return a.wall < b.wall; });
 }
 
 // Keys that have no effect in this room give a warning and are reset to their defaults, so that one scene can be tried with many notations.
@@ -78,6 +111,7 @@ void reset_unused_keys(const Fields& room, const RoomFacts& facts, Shape& shape)
   if (shape.kind != ShapeKind::lengths) {
     room.no_effect("lengths", "it belongs to `shape: lengths`");
     shape.lengths.clear();
+    shape.relations.clear();
   }
 }
 
@@ -88,7 +122,7 @@ Shape read_shape(const Fields& room, const RoomFacts& facts) {
       "shape", shape.kind, {{"tangential", ShapeKind::tangential}, {"paper", ShapeKind::paper}, {"lengths", ShapeKind::lengths}});
   shape.cut = room.number("cut", shape.cut, kLength);
   if (const Node* cuts = room.find("cuts")) shape.cuts = read_cuts(room.reader(), *cuts, shape.cut, facts);
-  if (const Node* lengths = room.find("lengths")) shape.lengths = read_lengths(room.reader(), *lengths, facts);
+  if (const Node* lengths = room.find("lengths")) read_lengths(room.reader(), *lengths, facts, shape);
   shape.scale = room.number("scale", shape.scale, kLength);
   shape.aspect = room.number("aspect", shape.aspect, {0.001, 1000});
   shape.strip_length = room.number("length", shape.strip_length, kLength);

@@ -33,12 +33,20 @@ struct Cut {
 
 enum class ShapeKind { tangential, paper, lengths };
 
+/// The length of a wall is `factor` times that of wall `of`. Walls count from 1.
+struct LengthRelation {
+  int wall = 0;
+  double factor = 1;
+  int of = 0;
+};
+
 /// How the free side lengths of the polygon are chosen (design §4).
 struct Shape {
   ShapeKind kind = ShapeKind::tangential;
   double cut = 1.4;                 ///< `paper`: length of every cut that `cuts` does not name
   std::vector<Cut> cuts;            ///< `paper`: the cuts of a decomposition; empty: the decomposition of the paper's forward reading
-  std::map<int, double> lengths;    ///< `lengths`: wall number (from 1) → side length; N−3 of them for N walls
+  std::map<int, double> lengths;    ///< `lengths`: wall number (from 1) → side length; with `relations` N−3 of them for N walls
+  std::vector<LengthRelation> relations;  ///< `lengths`: at most one for each wall, and none for walls in `lengths`; by wall
   double scale = 1;                 ///< E² only: inradius; of `**` half the distance of the mirrors
   double aspect = 1;                ///< `*2222` only: side 1 / side 2
   double strip_length = 4;          ///< strips only: distance of the plain end walls, in units of `scale`

@@ -33,7 +33,7 @@ with folder() as name:
 
     # command line → the section of docs/json.md that tells its keys
     RESULTS = [
-        (['info', '*237'], 'info'), (['enumerate', '--corners', '3', '--max-order', '4'], None), (['new', '*2323'], 'new'), (['check', scene], 'check'),
+        (['info', '*237'], 'info'), (['enumerate', '--corners', '3', '--max-order', '4'], None), (['new', '*2323'], 'new'), (['check', scene], 'check'), (['check', '-v', scene], 'check'),
         (['compile', scene, '--plan'], 'compile --plan'), (['compile', scene, '-o', where / 'x.svg'], 'compile to SVG'),
         *((['compile', scene, '-o', where / f'x.{form}'], 'compile') for form in ('pov', 'glb', 'gltf')),
         (['trace', scene, '-o', where / 'x.png'], 'render, trace'), (['trace', scene, '-o', where / 'x.exr'], 'render, trace'),
@@ -61,6 +61,14 @@ with folder() as name:
         check(again.stdout == done.stdout, f'{shown}: the same result again, there is no clock in it')
         if words[0] != 'info' and '--plan' not in words:
             check('diagnostics' in result, f'{shown} says what was told')
+
+    related = ROOT / 'tests/scenes/good/length-relations.yaml'
+    told = json.loads(run([ORBC, 'check', '-v', '--json', related]).stdout)['scenes'][0]
+    lengths = told['side_lengths']
+    check(abs(lengths[1] - 1.5 * lengths[4]) < 1e-14 and lengths[2] == lengths[0] == 1.2, f'check -v tells the lengths that relations made {lengths}')
+    check([relation['residual'] < 1e-14 for relation in told['relations']] == [True, True], 'check -v tells how exactly relations hold')
+    told = json.loads(run([ORBC, 'check', '-v', '--json', ROOT / 'examples/pentagon/scene.yaml', '--set', 'objects.1.embedding=exponential']).stdout)['scenes'][0]
+    check(told['objects'] and all(o['largest_scale'] > 1 and o['angle'] > 0 for o in told['objects'][:1]), 'check -v tells how embeddings distort')
 
     warned = where / 'warned.yaml'
     warned.write_text(SCENE.replace('polar: [0, 0deg], z: 0.8}', 'polar: [0, 0deg], z: 0.8}, cone: 30deg'))

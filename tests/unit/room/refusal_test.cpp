@@ -90,6 +90,53 @@ TEST_CASE("lengths that no room has are refused with the tangential ones as hint
   CHECK(realise(pentagon, shape).error()[0].hint.find("1: 1.0613") != std::string::npos);
 }
 
+TEST_CASE("relations of lengths that cannot hold are refused", "[room]") {
+  const auto with = [&](std::map<int, double> lengths, std::vector<scene::LengthRelation> relations) {
+    Shape shape;
+    shape.kind = ShapeKind::lengths;
+    shape.lengths = std::move(lengths);
+    shape.relations = std::move(relations);
+    return failure(orbifold_of({2, 2, 2, 2, 2}), shape);
+  };
+  CHECK(with({{1, 1.0}}, {{2, 1.2, 1}}).empty());
+  CHECK(with({{1, 1.0}}, {}) == "room.bad-lengths");
+  CHECK(with({{1, 1.0}}, {{2, 1, 6}}) == "room.bad-lengths");
+  CHECK(with({{1, 1.0}}, {{2, 1, 2}}) == "room.bad-lengths");
+  CHECK(with({}, {{1, 1, 2}, {2, 1, 1}}) == "room.bad-lengths");
+  CHECK(with({{1, 1.0}}, {{2, -1, 1}}) == "room.bad-lengths");
+  CHECK(with({{1, 0.5}}, {{2, 1, 1}}) == "room.no-such-shape");
+}
+
+TEST_CASE("walls may be as long as others, or in a ratio to them", "[room]") {
+  Shape shape;
+  shape.kind = ShapeKind::lengths;
+  const auto length = [](const Room& room, int wall) { return room.walls[static_cast<std::size_t>(wall - 1)].length; };
+  // Right-angled pentagon, as below: sinh a sinh b = cosh d. With a = b both follow from d in closed form.
+  shape.lengths = {{4, 1.2}};
+  shape.relations = {{1, 1, 2}};
+  const Room equal = made(orbifold_of({2, 2, 2, 2, 2}), shape);
+  check_room(equal);
+  CHECK(length(equal, 4) == Approx(1.2).epsilon(1e-15));
+  CHECK(length(equal, 1) == Approx(std::asinh(std::sqrt(std::cosh(1.2)))).epsilon(1e-14));
+  CHECK(length(equal, 2) == Approx(length(equal, 1)).epsilon(1e-15));
+  // No length is given: the ratios fix the room.
+  shape.lengths.clear();
+  shape.relations = {{1, 1, 2}, {4, 1.3, 1}};
+  const Room ratios = made(orbifold_of({2, 2, 2, 2, 2}), shape);
+  check_room(ratios);
+  const double a = length(ratios, 1);
+  CHECK(length(ratios, 4) == Approx(1.3 * a).epsilon(1e-15));
+  CHECK(std::sinh(a) * std::sinh(a) == Approx(std::cosh(1.3 * a)).epsilon(1e-14));
+  // A chain that ends in a length is that length; far from the tangential room the way there is taken in steps.
+  shape.lengths = {{1, 2.5}};
+  shape.relations = {{3, 0.5, 5}, {5, 1.6, 1}, {6, 1, 7}};
+  const Room chain = made(orbifold_of({2, 3, 2, 4, 2, 3, 2}), shape);
+  check_room(chain);
+  CHECK(length(chain, 5) == Approx(4.0).epsilon(1e-15));
+  CHECK(length(chain, 3) == Approx(2.0).epsilon(1e-15));
+  CHECK(length(chain, 6) == Approx(length(chain, 7)).epsilon(1e-14));
+}
+
 TEST_CASE("two neighbouring sides of a right-angled pentagon fix the opposite one", "[room]") {
   Shape shape;
   shape.kind = ShapeKind::lengths;
