@@ -4,7 +4,7 @@ import json
 import pathlib
 import time
 
-from helpers import BIN, ROOT, SCRIPTS, check, finish, folder, need, run
+from helpers import BIN, ROOT, check, check_gltf, finish, folder, need, run
 
 need('povray', 'node')
 EXAMPLES = sorted((ROOT / 'examples').glob('*/scene.yaml'))
@@ -47,8 +47,7 @@ with folder() as where:
         coarse = ('--size', '120x90', '--quality', 'draft', *(() if name == 'glass' else ('--no-highlights',)))
         done = orbc('compile', scene, '-o', glb, '--quiet', *coarse)
         check(done.returncode == 0, f'{name}: glb {done.stderr.decode()[:300]}')
-        valid = run(['node', SCRIPTS / 'validate_gltf.mjs', glb])
-        check(valid.returncode == 0, f'{name}: the Khronos validator finds nothing {valid.stdout.decode()[:300] if valid.returncode else ""}')
+        check_gltf(glb, f'{name}: the Khronos validator finds nothing')
         check(orbc('compile', scene, '-o', svg, '--quiet').returncode == 0 and b'<svg' in svg.read_bytes()[:400], f'{name}: svg')
         agrees(name, text, scene)
         print(f'        {name}: {time.monotonic() - start:.0f} s')
