@@ -43,6 +43,7 @@ struct SvgArguments {
   std::string line_color;           ///< empty = paper
   std::string motif;                ///< empty = none
   bool cuts = false;
+  std::vector<std::string> geodesics;  ///< "X1,Y1,X2,Y2" each
   double smallest = 1;              ///< pixels
   std::size_t max_copies = 100'000;
   std::string shape = "tangential";

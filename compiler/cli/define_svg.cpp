@@ -36,10 +36,12 @@ void define_svg(Program& program) {
   c->add_option("--size", a.size, "Width, or width and height: pixels, or with mm, cm, in or pt")
       ->capture_default_str()
       ->type_name("N|WxH");
-  c->add_option("--model", a.model,
-                "disk (Poincaré, stereographic, plane), klein (straight walls), half-plane (hyperbolic rooms) or plane (flat rooms)")
+  c->add_option(
+       "--model", a.model,
+       "disk (Poincaré, stereographic, plane), klein (straight walls), half-plane or hyperboloid (hyperbolic rooms), or plane (flat "
+       "rooms)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"disk", "klein", "half-plane", "plane"}))
+      ->check(CLI::IsMember({"disk", "klein", "half-plane", "hyperboloid", "plane"}))
       ->type_name("NAME");
   c->add_flag("!--no-labels", a.labels, "Neither orders of corners, numbers of walls nor caption; flat tilings reach the edge of the page");
   c->add_option("--colors,--colours", a.colors, "Two colors: of the room and its even images, and of mirror images")
@@ -56,6 +58,8 @@ void define_svg(Program& program) {
   c->add_option("--line-color,--line-colour", a.line_color, "Color of these lines")->type_name("COLOR");
   c->add_option("--motif", a.motif, "What stands in every tile: a letter, SVG path data, or an SVG file")->type_name("MOTIF");
   c->add_flag("--cuts", a.cuts, "The cuts of the paper's decomposition, dashed");
+  c->add_option("--geodesic", a.geodesics, "The whole geodesic through two points of the disk, in every model; may be said again")
+      ->type_name("X1,Y1,X2,Y2");
   c->add_option("--smallest", a.smallest, "Leave out copies narrower than so many pixels")
       ->capture_default_str()
       ->check(CLI::Range(0.05, 1000.0))

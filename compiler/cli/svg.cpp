@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <complex>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -11,6 +13,7 @@
 #include "compiler/cli/output.h"
 #include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
+#include "compiler/geometry/chart.h"
 #include "compiler/image/srgb.h"
 #include "compiler/notation/euler.h"
 #include "compiler/notation/parse.h"
@@ -84,6 +87,37 @@ Result<svg::Motif> motif_of(const std::string& text) {
   return svg::read_motif(bytes);
 }
 
+svg::Chart chart_of(const std::string& model) {
+  if (model == "klein") return svg::Chart::klein;
+  if (model == "half-plane") return svg::Chart::half_plane;
+  return model == "hyperboloid" ? svg::Chart::hyperboloid : svg::Chart::disk;
+}
+
+/// The geodesic through two points of the disk chart; of the plane in flat rooms.
+svg::Geodesic geodesic_of(const std::string& text, geometry::Space space) {
+  double values[4] = {};
+  const char *at = text.data(), *end = at + text.size();
+  int count = 0;
+  while (count < 4) {
+    const auto [next, error] = std::from_chars(at, end, values[count]);
+    if (error != std::errc() || !std::isfinite(values[count])) break;
+    ++count;
+    at = next;
+    if (at == end || *at != ',') break;
+    ++at;
+  }
+  if (count != 4 || at != end)
+    throw UsageError("--geodesic wants two points of the disk, X1,Y1,X2,Y2, such as 0.1,0.35,-0.4,0.1; got " + text);
+  const std::complex<double> p(values[0], values[1]), q(values[2], values[3]);
+  if (space == geometry::Space::hyperbolic && !(std::abs(p) < 0.999 && std::abs(q) < 0.999))
+    throw UsageError("--geodesic wants points inside the disk, nearer to its centre than 0.999; got " + text);
+  const svg::Geodesic geodesic{geometry::point_from_disk(space, p), geometry::point_from_disk(space, q)};
+  const double apart = geometry::distance(space, geodesic.from, geodesic.to);
+  if (!(apart > 1e-6) || (space == geometry::Space::spherical && apart > 3.14159))
+    throw UsageError("--geodesic wants two points that fix a geodesic, neither the same nor opposite ones; got " + text);
+  return geodesic;
+}
+
 Result<svg::RoomPicture> picture_of(const SvgArguments& a) {
   svg::RoomPicture picture;
   const PrintSize size = parse_print_size(a.size);
@@ -91,7 +125,7 @@ Result<svg::RoomPicture> picture_of(const SvgArguments& a) {
   picture.height = size.height;
   picture.look.unit = size.unit;
   picture.look.per_unit = size.per_unit;
-  picture.chart = a.model == "klein" ? svg::Chart::klein : a.model == "half-plane" ? svg::Chart::half_plane : svg::Chart::disk;
+  picture.chart = chart_of(a.model);
   picture.coloring = a.color_by == "length" ? driver::Tiling::Coloring::length : driver::Tiling::Coloring::parity;
   picture.look.labels = a.labels;
   picture.look.tooltips = a.labels;
@@ -129,8 +163,8 @@ Result<room::Room> room_of(const SvgArguments& a, Diagnostics& notes) {
 
 void check_model(const SvgArguments& a, const room::Room& room) {
   const std::string text = notation::to_text(room.orbifold);
-  if (a.model == "half-plane" && room.space != geometry::Space::hyperbolic)
-    throw UsageError(fmt::format("--model half-plane shows the hyperbolic plane, and {} is {}", text, geometry::name(room.space)));
+  if ((a.model == "half-plane" || a.model == "hyperboloid") && room.space != geometry::Space::hyperbolic)
+    throw UsageError(fmt::format("--model {} shows the hyperbolic plane, and {} is {}", a.model, text, geometry::name(room.space)));
   if (a.model == "plane" && room.space != geometry::Space::euclidean)
     throw UsageError(
         fmt::format("--model plane shows the Euclidean plane, and {} is {}; use disk or klein", text, geometry::name(room.space)));
@@ -148,11 +182,12 @@ int draw_svg(const SvgArguments& a, const Common& common) {
     return kSceneWrong;
   }
   check_model(a, *room);
-  const auto picture = picture_of(a);
+  auto picture = picture_of(a);
   if (!picture) {
     print(picture.error(), common);
     return kSceneWrong;
   }
+  for (const std::string& text : a.geodesics) picture->look.geodesics.push_back(geodesic_of(text, room->space));
   check_outputs({a.output});
   refuse_inputs({a.output}, {a.motif});
   const svg::RoomDrawing drawing = svg::draw_room(*room, *picture);

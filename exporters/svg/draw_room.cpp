@@ -2,6 +2,7 @@
 
 #include "compiler/notation/print.h"
 #include "compiler/room/cuts.h"
+#include "exporters/svg/hyperboloid.h"
 
 namespace orbc::svg {
 
@@ -30,6 +31,11 @@ RoomDrawing draw_room(const room::Room& room, const RoomPicture& picture) {
   drawing.copies = tiling.copies.size();
   drawing.width = page.width;
   drawing.height = page.height;
+  if (picture.chart == Chart::hyperboloid) {
+    drawing.height = kHyperboloidHeight * page.width;
+    drawing.svg = draw_hyperboloid(tiling, page.width, look);
+    return drawing;
+  }
   drawing.svg = draw_tiling(tiling, page, caption, look);
   return drawing;
 }

@@ -55,10 +55,10 @@ struct PageSize {
   double caption = 0;                 ///< height that is kept free below the picture
   bool full_bleed = false;            ///< flat tilings reach the edge of the page
 };
-enum class Chart { disk, klein, half_plane };
+enum class Chart { disk, klein, half_plane, hyperboloid };
 
 /// A page that shows the tiling by a room as far as it goes: S² and H² round, E² a window of some rooms across, strips as bands.
-/// Walls of rectangles and strips run along the edges of the page. half_plane: H² only.
+/// Walls of rectangles and strips run along the edges of the page. half_plane: H² only. hyperboloid: the page of the disk.
 [[nodiscard]] Page make_room_page(const room::Room& room, Chart chart, const PageSize& size);
 
 /// Where a line has its circle on the page: 1/radius in page units; 0 = a straight line.

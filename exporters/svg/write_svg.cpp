@@ -221,6 +221,7 @@ std::string draw_tiling(const Tiling& tiling, const Page& page, double caption, 
       out += "<path d=\"" + tile.path.d + "\" fill=\"none\"" + ink +
              attribute("stroke-width", std::clamp(0.012 * tile.path.diameter, 0.8 * page.unit, 2.4 * page.unit)) + "/>\n";
   if (options.cuts) out += cut_lines(tiling.room, page);
+  out += geodesic_lines(page, options.geodesics);
   out += "</g>\n";
   if (page.frame > 0) out += border.shape + " fill=\"none\"" + ink + attribute("stroke-width", 1.6 * page.unit) + "/>\n";
   if (tiling.room.space == Space::spherical && !page.straight)

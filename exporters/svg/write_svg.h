@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/driver/product.h"
+#include "exporters/svg/geodesic.h"
 #include "exporters/svg/motif.h"
 #include "exporters/svg/page.h"
 
@@ -21,6 +22,7 @@ struct SvgOptions {
   std::string line_color;  ///< "#rrggbb"; "" = paper
   Motif motif;             ///< stands in every copy; placed in the room (motif.h)
   bool cuts = false;       ///< the cuts of the paper's decomposition
+  std::vector<Geodesic> geodesics;
   std::string unit;        ///< of the picture's width and height, "mm"; "" = user units
   double per_unit = 1;     ///< user units in a `unit`
 };

@@ -119,7 +119,9 @@ with folder() as name:
 
     # mistakes
     for words in (['*237', '--size', 'big'], ['*237', '--size', '0'], ['*237', '--size', '800x'], ['*237', '--colors', 'red'], ['*237', '--colors', 'red,nocolor'],
-                  ['*235', '--model', 'half-plane'], ['*235', '--model', 'plane'], ['*237', '--model', 'cube'], ['*237', '--lines', '-1']):
+                  ['*235', '--model', 'half-plane'], ['*235', '--model', 'plane'], ['*237', '--model', 'cube'], ['*237', '--lines', '-1'],
+                  ['*235', '--model', 'hyperboloid'], ['*237', '--geodesic', '0,0,1'], ['*237', '--geodesic', '0,0,0.5,1'], ['*237', '--geodesic', '0.1,0,0.1,0'],
+                  ['*235', '--geodesic', '1,0,-1,0'], ['*235', '--geodesic', '0,0,nan,1'], ['*235', '--geodesic', '0,0,1,1,1']):
         svg(*words, code=2)
     check(b'known' not in svg('*23', code=1).stderr, 'a bad orbifold')
     for words in (['*237', '--motif', '?'], ['*237', '--motif', 'M0 0'], ['*333', '--aspect', '2'], ['22*']):
