@@ -1,10 +1,11 @@
 #pragma once
-#include <charconv>
+#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
 
+#include "compiler/base/number_text.h"
 #include "compiler/base/utf8.h"
 
 namespace orbc::exporters {
@@ -39,8 +40,10 @@ class Pen {
   Pen& operator<<(float value) { return number(value); }
   Pen& operator<<(double value) { return number(value); }
   Pen& operator<<(int value) { return number(value); }
-  Pen& operator<<(std::uint32_t value) { return number(value); }
-  Pen& operator<<(std::uint64_t value) { return number(value); }
+  template <std::integral Integer>
+  Pen& operator<<(Integer value) {
+    return number(value);
+  }
 
   void flush() {
     out_.append(buffer_, used_);
@@ -52,7 +55,7 @@ class Pen {
   template <class T>
   Pen& number(T value) {
     make_room();
-    used_ = static_cast<std::size_t>(std::to_chars(buffer_ + used_, buffer_ + sizeof buffer_, value).ptr - buffer_);
+    used_ = static_cast<std::size_t>(put_shortest(buffer_ + used_, value) - buffer_);
     return *this;
   }
   void make_room() {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 
 #include "compiler/files/files.h"
 #include "compiler/image_io/decode.h"
@@ -19,17 +18,6 @@ namespace {
 
 constexpr std::uint64_t kBytesPerTriangle = 400;
 constexpr std::size_t kBeginning = 64 << 10;
-
-std::optional<Format> format_of(const std::string& path) {
-  const auto ending = lower_case(std::filesystem::path(path).extension().string());
-  if (ending == ".obj") return Format::obj;
-  if (ending == ".ply") return Format::ply;
-  if (ending == ".off") return Format::off;
-  if (ending == ".stl") return Format::stl;
-  if (ending == ".gltf") return Format::gltf;
-  if (ending == ".glb") return Format::glb;
-  return {};
-}
 
 std::string hint_for_ending(const std::string& ending) {
   for (const char* known :
@@ -65,6 +53,17 @@ Diagnostics refuse_by_beginning(const std::string& path, Format format, const Lo
 }
 
 }  // namespace
+
+std::optional<Format> format_of(const std::string& path) {
+  const auto ending = lower_case(std::filesystem::path(path).extension().string());
+  if (ending == ".obj") return Format::obj;
+  if (ending == ".ply") return Format::ply;
+  if (ending == ".off") return Format::off;
+  if (ending == ".stl") return Format::stl;
+  if (ending == ".gltf") return Format::gltf;
+  if (ending == ".glb") return Format::glb;
+  return {};
+}
 
 LoadOptions bounds_within(std::uint64_t max_memory) {
   LoadOptions options;

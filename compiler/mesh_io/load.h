@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -37,6 +38,9 @@ inline void report_read(const LoadOptions& options, const std::string& path) {
 [[nodiscard]] Result<mesh::LoadedMesh> load_mesh(const std::string& path, const LoadOptions& options = {});
 
 enum class Format { obj, ply, off, stl, gltf, glb };
+
+/// The format of a file by the ending of its name; nothing for endings that are not known.
+[[nodiscard]] std::optional<Format> format_of(const std::string& path);
 
 /// Reads a mesh from memory, as load_mesh does.
 /// In: `name` is what diagnostics call the file; `folder` is where the files are that it refers to, "" refuses every reference.

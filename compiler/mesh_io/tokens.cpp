@@ -3,6 +3,8 @@
 #include <charconv>
 #include <utility>
 
+#include "compiler/base/number_text.h"
+
 namespace orbc::mesh_io {
 namespace {
 
@@ -114,13 +116,11 @@ std::string_view Tokens::next(bool comments) {
 
 std::optional<double> to_number(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  double value = 0;
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (word.empty() || result.ptr != word.data() + word.size()) return {};
+  const LeadingNumber read = leading_number(word);
+  if (word.empty() || read.length != word.size()) return {};
   // Too small for a double is 0 to any mesh; too large stays an error of the caller's range check.
-  if (result.ec == std::errc::result_out_of_range) return word.find("e-") != word.npos || word.find("E-") != word.npos ? 0.0 : 1e308;
-  if (result.ec != std::errc()) return {};
-  return value;
+  if (read.out_of_range) return word.find("e-") != word.npos || word.find("E-") != word.npos ? 0.0 : 1e308;
+  return read.value;
 }
 
 std::optional<std::int64_t> to_integer(std::string_view word) {

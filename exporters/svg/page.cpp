@@ -1,7 +1,8 @@
 #include "exporters/svg/page.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -95,7 +96,7 @@ bool holds_antipode(const std::vector<Piece>& pieces, const geometry::Isometry& 
 
 std::string coordinate(double value) {
   char text[400];
-  char* end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 3).ptr;
+  char* end = fmt::format_to(text, "{:.3f}", value);
   while (end[-1] == '0') --end;
   if (end[-1] == '.') --end;
   const std::string result(text, end);

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "compiler/base/elementary.h"
+#include "compiler/base/number_text.h"
 
 namespace orbc::svg {
 namespace {
@@ -66,11 +66,10 @@ class PathReader {
     skip();
     std::size_t begin = at_;
     if (begin < data_.size() && data_[begin] == '+') ++begin;
-    double value = 0;
-    const auto [end, error] = std::from_chars(data_.data() + begin, data_.data() + data_.size(), value);
-    if (error != std::errc() || !(std::fabs(value) < kLargest)) return std::nullopt;
-    at_ = static_cast<std::size_t>(end - data_.data());
-    return value;
+    const LeadingNumber read = leading_number(std::string_view(data_).substr(begin));
+    if (read.length == 0 || read.out_of_range || !(std::fabs(read.value) < kLargest)) return std::nullopt;
+    at_ = begin + read.length;
+    return read.value;
   }
 
   template <std::size_t kCount>

@@ -44,6 +44,9 @@ const states = {
   blocked: [desk, (page) => drag(page, 600, -200)],
   difference: [desk, async (page) => (await app(page, '(app.difference.value = true, 0)'), await until(page, 'app.refining.value >= 0.3'))],
   share: [desk, async (page) => (await page.click('[aria-label="Share and export"]'), await pause(page, 600))],
+  'share-1024': [tablet, async (page) => (await page.click('[aria-label="Share and export"]'), await pause(page, 600))],
+  'share-phone': [phone, async (page) => (await page.tap('[aria-label="Share and export"]'), await pause(page, 600))],
+  exporting: [desk, async (page) => (await app(page, "(app.exporting.value = { format: 'glb', stage: 'bending', share: 0.34 }, 0)"), await pause(page))],
   keys: [desk, async (page) => (await page.focus('#room'), await page.keyboard.press('?'))],
   projector: [desk, async (page) => app(page, '(app.projector.value = true, 0)')],
   fatal: [desk, async (page) => app(page, "(app.fatal.value = 'The browser took the graphics card away (WebGL context lost).', 0)")],
@@ -58,7 +61,7 @@ const states = {
 };
 // What a state leaves behind is taken back, so that states of one size share a page and its light.
 const reset = "(app.document_.replaceAll(globalThis.first ??= app.text.value), app.mode.value = 'walk', app.tab.value = 'things', app.menu.value = null, " +
-  "app.corner.value = null, app.projector.value = false, app.fatal.value = null, app.difference.value = false, app.selection.value = { kind: 'room' }, " +
+  "app.corner.value = null, app.projector.value = false, app.fatal.value = null, app.difference.value = false, app.exporting.value = null, app.selection.value = { kind: 'room' }, " +
   "app.eye.value = app.home, app.stepped.value = false, 0)";
 mkdirSync(folder, { recursive: true });
 const chrome = await browser();

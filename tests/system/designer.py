@@ -31,6 +31,12 @@ PARTS = SCENE.replace(
     'walls: {all: {mirror: {reflectance: 0.9}}, 2: {mirror: {reflectance: 0.6, tint: "#ffc9a8"}}, 3: {mirror: none, color: teal}, '
     '4: {mirror: {span: [0.2, 0.8], height: [0.2, 0.7], reflectance: 0.8}}}')
 OWN = {'parts': PARTS, 'plane': SCENE.replace('*22222', '*2222'), 'sphere': SCENE.replace('*22222', '*222').replace('bounces: 3', 'bounces: 9')}
+EXPORTS = {
+    'plain': SCENE,
+    'lit': SCENE.replace('coral', 'marble').replace('bounces: 3}', 'bounces: 2}\nbake: {quality: draft}\nlights:\n  - {kind: point, at: {polar: [0.1, 200deg], z: 0.7}, power: 4}'),
+    'sphere': OWN['sphere'],
+    'plane': OWN['plane'],
+}
 
 with folder() as name:
     where = pathlib.Path(name)
@@ -76,6 +82,23 @@ with folder() as name:
         share = (np.abs(page - picture(where / f'{scene}.png')).max(axis=-1) <= 4).mean()
         least = PICTURES[scene]
         check(share >= least, f'{scene}: {100 * share:.2f} % of the pixels are the tracer\'s to 4/255 (at least {100 * least} %)')
+
+    # What the page exports is what the program does, from reading on.
+    arguments = []
+    for scene in EXPORTS:
+        for place in ('program', 'page'):
+            (where / scene / place).mkdir(parents=True)
+        (where / scene / 'scene.yaml').write_text(EXPORTS[scene])
+        done(BIN / 'orbc', 'compile', where / scene / 'scene.yaml', '-o', where / scene / 'scene.html', '--quiet')
+        for ending in ('glb', 'pov', 'svg'):
+            done(BIN / 'orbc', 'compile', where / scene / 'scene.yaml', '-o', where / scene / f'program/scene.{ending}', '--quiet')
+        arguments += [where / scene / 'scene.html', where / scene / 'page/scene']
+    exported = run([*node, ROOT / 'tests/page/exports.mjs', *arguments], cwd=ROOT, timeout=1500)
+    check(exported.returncode == 0 and not exported.stdout, f'the pages export without a word {exported.stdout.decode()[:2000]} {exported.stderr.decode()[-2000:]}')
+    for scene in EXPORTS:
+        for ending in ('glb', 'pov', 'svg'):
+            ended = run([BIN / 'orbc', 'diff', '--within', '1e-6', where / scene / f'program/scene.{ending}', where / scene / f'page/scene.{ending}'])
+            check(ended.returncode == 0, f'{scene}: the .{ending} of the page is the program\'s {ended.stdout.decode()[:300]}')
 
     by_hand = run([*node, ROOT / 'tests/page/designer.mjs', where / 's.html', where / 'empty.html'], cwd=ROOT, timeout=1500)
     print(by_hand.stdout.decode())

@@ -1,7 +1,12 @@
 // The C interface. A core serves one page or worker, from one thread, so what is open is kept here and nowhere else.
 #include "exporters/html/core/core.h"
 
+#ifdef __EMSCRIPTEN__
+#include <emscripten.h>
+#endif
+
 #include <exception>
+#include <fstream>
 #include <string>
 
 #include "compiler/cover/automaton.h"
@@ -10,6 +15,7 @@
 #include "compiler/notation/parse.h"
 #include "compiler/scene/document.h"
 #include "exporters/html/core/describe.h"
+#include "exporters/html/core/export.h"
 #include "exporters/html/core/session.h"
 
 namespace orbc::html {
@@ -76,14 +82,18 @@ void describe_scene(OpenScene& open, Reply& reply) {
   describe_light(open, reply);
 }
 
-geometry::Isometry isometry_from(geometry::Space space, const double* m) {
-  const geometry::Point at = geometry::normalised_point(space, {m[0], m[3], m[6]});
-  const geometry::Isometry there = geometry::translation_to(space, at), back = geometry::inverse(there);
-  const geometry::Tangent x = back * geometry::Tangent(m[1], m[4], m[7]), y = back * geometry::Tangent(m[2], m[5], m[8]);
-  const geometry::Isometry turned = there * geometry::rotation(space, math::atan2(x.y, x.x));
-  if (x.x * y.y - x.y * y.x > 0) return turned;
-  return turned * geometry::reflection(space, {0, 0, 1});
-}
+#ifdef __EMSCRIPTEN__
+EM_JS(void, tell_page, (const char* stage, double done, double total), {
+  if (Module.told) Module.told(UTF8ToString(stage), done, total);
+});
+#else
+void tell_page(const char*, double, double) {}
+#endif
+
+const Progress tell{[](std::string_view stage, std::uint64_t done, std::uint64_t total, std::string_view) {
+                      tell_page(std::string(stage).c_str(), static_cast<double>(done), static_cast<double>(total));
+                    },
+                    nullptr};
 
 }  // namespace
 }  // namespace orbc::html
@@ -92,7 +102,29 @@ using namespace orbc;
 using namespace orbc::html;
 
 void orbc_asset(const char* name, size_t name_size, const uint8_t* bytes, size_t size) {
-  session().files[std::string(name, name_size)].assign(bytes, bytes + size);
+  const std::string own(name, name_size);
+  std::vector<std::uint8_t>& file = session().files[own];
+  file.assign(bytes, bytes + size);
+#ifdef __EMSCRIPTEN__  // meshes find there what they refer to; the "disk" is memory of the page
+  if (!is_page_file(file))
+    std::ofstream(own.substr(own.find_last_of('/') + 1), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes), static_cast<long>(size));
+#endif
+}
+
+const OrbcReply* orbc_take_mesh(const char* name, size_t name_size, const uint8_t* bytes, size_t size) {
+  return answer([&](Session& s, Reply& reply) {
+    const std::string own(name, name_size);
+    const PageFiles files{{own, {bytes, bytes + size}}};
+    const auto loaded = assets_of_page(files).load_mesh(own);
+    reply.object().key("diagnostics");
+    describe_diagnostics(loaded ? loaded->warnings : loaded.error(), reply);
+    if (loaded) {
+      s.files[own] = page_file(loaded->mesh);  // so that it is not read anew with every change of the scene
+      reply.key("triangles").value(loaded->mesh.triangles.size());
+    }
+    reply.end_object();
+  });
 }
 
 const OrbcReply* orbc_open(const char* text, size_t size) {
@@ -186,11 +218,7 @@ void orbc_trace_begin(const double* eye, double fov, int width, int height, cons
   if (!s.open) return;
   place::Camera& camera = s.picture.eye;
   camera = {};
-  camera.room_from_eye = isometry_from(s.open->interior.polygon.space, eye);
-  camera.z = eye[9];
-  camera.forward = {eye[10], eye[11], eye[12]};
-  camera.right = {eye[13], eye[14], eye[15]};
-  camera.up = {eye[16], eye[17], eye[18]};
+  stand(camera, s.open->interior.polygon.space, eye);
   camera.fov.radians = fov;
   camera.width = width;
   camera.height = height;
@@ -206,5 +234,26 @@ const OrbcReply* orbc_trace_tile(const int* tile, int index, int samples) {
     std::vector<std::uint8_t> pixels;
     if (s.open && !s.picture.counts.empty()) pixels = refine(*s.open, s.picture, {tile[0], tile[1], tile[2], tile[3]}, index, samples);
     reply.object().key("pixels").block(pixels).end_object();
+  });
+}
+
+const OrbcReply* orbc_export(const char* text, size_t size, const char* format, const double* eye) {
+  return answer([&](Session& s, Reply& reply) {
+    auto source = std::make_shared<SourceText>();
+    source->name = "scene.yaml";
+    source->text.assign(text, size);
+    const ExportedScene made = export_scene(source, s.files, {format, eye}, tell);
+    reply.object().key("diagnostics");
+    describe_diagnostics(made.diagnostics, reply);
+    reply.key("files").array();
+    for (const driver::File& file : made.files)
+      reply.object()
+          .key("name")
+          .value(file.name)
+          .key("bytes")
+          .block(std::vector<std::uint8_t>(file.bytes.begin(), file.bytes.end()))
+          .end_object();
+    reply.end_array().key("copies").value(static_cast<double>(made.copies)).key("triangles").value(static_cast<double>(made.triangles));
+    reply.key("error_px").value(made.error_px).end_object();
   });
 }

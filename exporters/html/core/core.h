@@ -22,8 +22,14 @@ typedef struct {
   size_t block_size;
 } OrbcReply;
 
-/// Gives the core a file that scenes may name, in the form of page_assets.h. It replaces an earlier one of that name.
+/// Gives the core a file that scenes, or other such files, may name: in the form of page_assets.h, or as it is on a disk. It replaces an
+/// earlier one of that name.
 void orbc_asset(const char* name, size_t name_size, const uint8_t* bytes, size_t size);
+
+/// Reads a mesh file as it is on a disk (OBJ, PLY, STL, OFF, glTF, GLB; the ending of the name says which), and if it is fine gives it to
+/// the core, as orbc_asset does. The files that it refers to are given before. {"diagnostics": […], "triangles": n}; "triangles" is missing
+/// if there were errors.
+const OrbcReply* orbc_take_mesh(const char* name, size_t name_size, const uint8_t* bytes, size_t size);
 
 /// Reads a scene (UTF-8 YAML), realises its room and furnishes it. On errors the scene of the last call that had none stays open.
 /// {"ok": true, "diagnostics": […], "nodes": […], "room": {…}, "shell": {…}, "styles": […], "textures": […], "meshes": {…}, "objects": […],
@@ -51,6 +57,13 @@ void orbc_trace_begin(const double* eye, double fov, int width, int height, cons
 /// Traces one sample for each pixel of the tile (x, y, width, height): sample `index` of `samples`, and adds it to the film. {"pixels": 4
 /// u8 a pixel, sRGB of the mean of all samples so far}.
 const OrbcReply* orbc_trace_tile(const int* tile, int index, int samples);
+
+
+/// Compiles a scene as the program does, from reading it anew, for the format "glb", "pov" or "svg". `eye`: where to see it from instead
+/// of its camera, 19 numbers as for orbc_trace_begin; null: as the scene has it. {"diagnostics": […], "files": [{"name": "" for the main
+/// one, "bytes": u8}, …], "copies", "triangles", "error_px"}. Without files there were errors. It takes as long as the program with one
+/// thread, and tells the function `told` of the module from time to time how far it is.
+const OrbcReply* orbc_export(const char* text, size_t size, const char* format, const double* eye);
 
 #ifdef __cplusplus
 }

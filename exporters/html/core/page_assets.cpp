@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string_view>
+
+#include "compiler/image_io/decode.h"
+#include "compiler/mesh_io/load.h"
 
 namespace orbc::html {
 namespace {
@@ -124,6 +128,27 @@ std::optional<mesh::Mesh> read_mesh(const Bytes& bytes) {
 Diagnostic missing(const std::string& path) {
   return make_error("mesh.missing-file", fmt::format("the page does not hold the file \"{}\"", path), "drop the file on the page");
 }
+#ifdef __EMSCRIPTEN__
+const char* const kFolder = ".";  // of the page's own files in memory, where the core has put them
+#else
+const char* const kFolder = "";  // nothing of the disk
+#endif
+const mesh_io::LoadOptions kBounds = mesh_io::bounds_within(std::uint64_t{1} << 30);
+
+std::string_view text_of(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+const Bytes* find(const PageFiles& files, const std::string& path) {
+  auto file = files.find(path);
+  if (file == files.end()) file = files.find(path.substr(path.find_last_of('/') + 1));
+  return file == files.end() ? nullptr : &file->second;
+}
+
+Result<mesh::LoadedMesh> load_raw_mesh(const std::string& path, const Bytes& bytes) {
+  const auto format = mesh_io::format_of(path);
+  if (!format) return mesh_io::load_mesh(path);  // it says what is known
+  return mesh_io::load_mesh_bytes(text_of(bytes), *format, path, kFolder, kBounds);
+}
+
 Diagnostic broken(const std::string& path) {
   return make_error("page.bad-asset", fmt::format("the page's copy of \"{}\" is damaged", path),
                     "write the page again, or drop the file on it");
@@ -156,19 +181,26 @@ Bytes page_file(const image::Image& picture) {
   return out;
 }
 
+bool is_page_file(const Bytes& bytes) {
+  const std::string_view mark(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(4, bytes.size()));
+  return mark == "OMSH" || mark == "OIMG";
+}
+
 mesh::AssetSource assets_of_page(const PageFiles& files) {
   mesh::AssetSource source;
   source.load_mesh = [&files](const std::string& path) -> Result<mesh::LoadedMesh> {
-    const auto file = files.find(path);
-    if (file == files.end()) return missing(path);
-    std::optional<mesh::Mesh> mesh = read_mesh(file->second);
+    const Bytes* bytes = find(files, path);
+    if (!bytes) return missing(path);
+    if (!is_page_file(*bytes)) return load_raw_mesh(path, *bytes);
+    std::optional<mesh::Mesh> mesh = read_mesh(*bytes);
     if (!mesh) return broken(path);
     return mesh::LoadedMesh{std::move(*mesh), {}};
   };
   source.load_image = [&files](const std::string& path) -> Result<image::Image> {
-    const auto file = files.find(path);
-    if (file == files.end()) return missing(path);
-    Reader reader{file->second};
+    const Bytes* bytes = find(files, path);
+    if (!bytes) return missing(path);
+    if (!is_page_file(*bytes)) return image_io::decode_image(text_of(*bytes), path, kBounds.images);
+    Reader reader{*bytes};
     image::Image picture = read_picture(reader);
     if (!reader.fine) return broken(path);
     return picture;

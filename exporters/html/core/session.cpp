@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kMaxEdge = 0.12;  // of triangles, as a share of min(1, inradius): chords then lie within a pixel of their geodesics
 
-void append(Diagnostics& to, const Diagnostics& from) { to.insert(to.end(), from.begin(), from.end()); }
-
 render::DrawOptions draw_options(OpenScene& scene, int samples) {
   const light::LightingContext& lighting = light_job_of(scene).lighting;
   render::DrawOptions draw;

@@ -10,6 +10,8 @@
 
 namespace orbc::html {
 
+inline void append(Diagnostics& to, const Diagnostics& more) { to.insert(to.end(), more.begin(), more.end()); }
+
 /// A scene of the page, furnished and placed. It stays at its address: the tracer refers to its interior.
 struct OpenScene {
   scene::Scene scene;

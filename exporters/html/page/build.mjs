@@ -22,7 +22,7 @@ const parts = {
   'WASM': deflateRawSync(readFileSync(join(coreFolder, 'orbc-core.wasm')), { level: 9 }).toString('base64'),
   'CORE': inScript(readFileSync(join(coreFolder, 'orbc-core.js'), 'utf8')),
   'WORKER': inScript(await bundle('core/worker.ts')),
-  'MAIN': inScript(await bundle('main.tsx')),
+  'MAIN': deflateRawSync(await bundle('main.tsx'), { level: 9 }).toString('base64'),
 };
 const template = readFileSync(join(here, 'page.html'), 'utf8');
 const page = template.replace(/\/\*STYLE\*\/|(?<=>)(WASM|CORE|WORKER|MAIN)(?=<)/g, (mark) => parts[mark.replace(/[/*]/g, '')]);

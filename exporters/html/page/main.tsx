@@ -4,10 +4,11 @@ import { Walk } from './room/walk';
 import { RoomView } from './room/view';
 import * as app from './state/app';
 import { sceneOf } from './state/share';
-import { Bar, Compass, Difference, Empty, Fatal, Help, Menus, Status, Tag, Toast } from './ui/Chrome';
-import { rememberPage, take } from './ui/files';
+import { Bar, Compass, Difference, Empty, Exporting, Fatal, Help, Menus, Status, Tag, Toast } from './ui/Chrome';
+import { rememberPage } from './ui/files';
 import { Gizmos } from './ui/Gizmos';
 import { Panel } from './ui/Panel';
+import { take } from './ui/take';
 import { CornerPopover, Tiling } from './ui/Tiling';
 
 const element = (id: string) => document.getElementById(id)!;
@@ -33,6 +34,7 @@ function draw(walk: { current: Walk | null }, again: () => void): void {
       <Menus />
       <Tag />
       <Toast />
+      <Exporting />
       <Empty />
       <Fatal again={again} />
     </>
@@ -69,6 +71,7 @@ async function firstText(): Promise<string> {
 }
 
 async function start(): Promise<void> {
+  document.currentScript?.remove(); // put there by page.html
   rememberPage();
   const canvas = element('room') as HTMLCanvasElement;
   const walk: { current: Walk | null } = { current: null };
@@ -99,8 +102,7 @@ async function start(): Promise<void> {
   addEventListener('dragover', (e) => e.preventDefault());
   addEventListener('drop', (e) => {
     e.preventDefault();
-    const file = e.dataTransfer?.files[0];
-    if (file) void take(file);
+    if (e.dataTransfer?.files.length) void take([...e.dataTransfer.files]);
   });
   // For tests: what the page is doing, by numbers.
   Object.assign(globalThis, { orbc: { app, walk: () => walk.current } });

@@ -141,3 +141,60 @@ TEST_CASE("a damaged file of the page is refused", "[html]") {
   for (const char* name : {"far.obj", "short.obj"})
     CHECK(html::assets_of_page(files).load_mesh(name).error().front().code == "page.bad-asset");
 }
+
+TEST_CASE("an export of the core has files and no errors", "[html]") {
+  for (const char* format : {"glb", "pov", "svg"}) {
+    const Json made = json_of(orbc_export(kPentagon.data(), kPentagon.size(), format, nullptr));
+    REQUIRE(made.at("files").size() >= 1);
+    CHECK(made.at("files").at(0).at("name") == "");
+    CHECK(made.at("files").at(0).at("bytes").at("count").get<int>() > 1000);
+    CHECK(made.at("copies").get<int>() > 1);
+  }
+}
+
+TEST_CASE("an export from another eye differs, and from the scene's own is the same", "[html]") {
+  const std::string flat = "orbc: 1\norbifold: \"*2222\"\nroom: {height: 3}\ncamera: {at: {xy: [0.3, 0.2], z: 1}}\n";
+  const auto bytes = [&](const double* eye) {
+    const OrbcReply* reply = orbc_export(flat.data(), flat.size(), "pov", eye);
+    const auto list = block<std::uint8_t>(reply, json_of(reply).at("files").at(0).at("bytes"));
+    return std::string(list.begin(), list.end());
+  };
+  const Json eye = json_of(orbc_open(flat.data(), flat.size())).at("eye");
+  std::vector<double> numbers = eye.at("room_from_eye").get<std::vector<double>>();
+  numbers.push_back(eye.at("z").get<double>());
+  for (const char* axis : {"forward", "right", "up"})
+    for (const double c : eye.at(axis).get<std::vector<double>>()) numbers.push_back(c);
+  const std::string own = bytes(nullptr);
+  const std::string same = bytes(numbers.data());
+  CHECK(own.substr(0, own.find("camera")) == same.substr(0, same.find("camera")));
+  CHECK(std::abs(static_cast<double>(own.size()) / static_cast<double>(same.size()) - 1) < 1e-4);  // last digits
+  numbers[9] += 0.2;
+  CHECK(bytes(numbers.data()) != own);
+}
+
+TEST_CASE("what makes no export says why", "[html]") {
+  const std::string broken = "orbc: 1\norbifold: \"*23\"\n";
+  const Json made = json_of(orbc_export(broken.data(), broken.size(), "glb", nullptr));
+  CHECK(made.at("files").empty());
+  CHECK(made.at("diagnostics").size() >= 1);
+}
+
+TEST_CASE("an atlas as EXR is refused: the page writes none", "[html]") {
+  const std::string scene = "orbc: 1\norbifold: \"*22222\"\nbake: {atlas: exr}\n";
+  const Json made = json_of(orbc_export(scene.data(), scene.size(), "pov", nullptr));
+  CHECK(made.at("files").empty());
+  CHECK(made.at("diagnostics").at(0).at("code") == "page.no-exr");
+}
+
+TEST_CASE("a mesh as it is on a disk serves the scene, and a broken one is refused", "[html]") {
+  const std::string name = "tetrahedron.off", off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const auto take = [&](const std::string& text) {
+    return json_of(orbc_take_mesh(name.data(), name.size(), reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  };
+  CHECK(take(off).at("triangles") == 4);
+  const Json refused = take("OFF\n4 4 0\n0 0");
+  CHECK_FALSE(refused.contains("triangles"));
+  CHECK(refused.at("diagnostics").size() == 1);
+  const std::string scene = "orbc: 1\norbifold: \"*22222\"\nobjects: [{mesh: a/tetrahedron.off, size: 0.1, at: centre}]\n";
+  CHECK(json_of(orbc_open(scene.data(), scene.size())).at("ok") == true);  // found without its folder, and the good one is kept
+}

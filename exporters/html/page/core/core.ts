@@ -1,3 +1,5 @@
+import type { ExportReply, MeshReply } from '../state/reply';
+
 /** The core as typed functions. Its glue, createCore, is a script of its own (scripts/web). */
 interface Module {
   HEAPU8: Uint8Array;
@@ -13,8 +15,9 @@ const kinds = { f32: Float32Array, f64: Float64Array, u32: Uint32Array, u8: Uint
 export class Core {
   private constructor(private readonly module: Module) {}
 
-  static async start(wasm: ArrayBuffer): Promise<Core> {
+  static async start(wasm: ArrayBuffer, told?: (stage: string, done: number, all: number) => void): Promise<Core> {
     const module = await createCore({
+      told,
       instantiateWasm(imports: WebAssembly.Imports, ready: (i: WebAssembly.Instance, m: WebAssembly.Module) => void) {
         void WebAssembly.instantiate(wasm, imports).then((made) => ready(made.instance, made.module));
         return {};
@@ -29,6 +32,14 @@ export class Core {
     this.call('_orbc_asset', at, encoded.length, data, bytes.length);
     this.module._free(at);
     this.module._free(data);
+  }
+  takeMesh(name: string, bytes: Uint8Array): MeshReply {
+    const encoded = new TextEncoder().encode(name);
+    const at = this.copyIn(encoded), data = this.copyIn(bytes);
+    const reply = this.reply<MeshReply>(this.call('_orbc_take_mesh', at, encoded.length, data, bytes.length));
+    this.module._free(at);
+    this.module._free(data);
+    return reply;
   }
   open<T>(text: string): T {
     return this.withText<T>('_orbc_open', text);
@@ -52,6 +63,16 @@ export class Core {
     const reply = this.reply<{ pixels: Uint8Array }>(this.call('_orbc_trace_tile', at, index, samples));
     this.module._free(at);
     return reply.pixels;
+  }
+
+  /** In: `eye` as for traceBegin; null: where the scene's camera stands. */
+  export(text: string, format: string, eye: number[] | null): ExportReply {
+    const name = this.copyIn(new TextEncoder().encode(format + '\0'));
+    const at = eye ? this.copyIn(new Uint8Array(new Float64Array(eye).buffer)) : 0;
+    const reply = this.withText<ExportReply>('_orbc_export', text, name, at);
+    if (at) this.module._free(at);
+    this.module._free(name);
+    return reply;
   }
 
   private call(name: string, ...values: number[]): number {

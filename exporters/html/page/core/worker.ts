@@ -1,6 +1,6 @@
 /** The worker: it holds the core and does the page's work in slices, so that a new scene never waits for light or pixels of the old one. */
 import { Core } from './core';
-import type { CopiesReply, LightReply, SceneReply } from '../state/reply';
+import type { CopiesReply, ExportReply, LightReply, SceneReply } from '../state/reply';
 
 export interface TraceJob {
   eye: number[];
@@ -13,14 +13,18 @@ export interface TraceJob {
 export type ToWorker =
   | { kind: 'start'; wasm: ArrayBuffer; assets: [string, Uint8Array][] }
   | { kind: 'asset'; name: string; bytes: Uint8Array }
+  | { kind: 'mesh'; id: number; name: string; bytes: Uint8Array }
   | { kind: 'open'; id: number; text: string; copies: number; most: number }
   | { kind: 'notation'; id: number; text: string; real: boolean }
-  | { kind: 'trace'; job: TraceJob | null };
+  | { kind: 'trace'; job: TraceJob | null }
+  | { kind: 'export'; text: string; format: string; eye: number[] | null };
 export type FromWorker =
   | { kind: 'ready' }
   | { kind: 'failed'; message: string }
   | { kind: 'opened'; id: number; scene: SceneReply; copies: CopiesReply; time: number }
-  | { kind: 'notation'; id: number; reply: unknown }
+  | { kind: 'answer'; id: number; reply: unknown }
+  | { kind: 'told'; stage: string; share: number | null }
+  | { kind: 'exported'; reply: ExportReply }
   | { kind: 'light'; id: number; light: LightReply }
   | { kind: 'tile'; x: number; y: number; width: number; height: number; pixels: Uint8Array; pass: number; share: number };
 
@@ -82,9 +86,17 @@ function work(): void {
   }
 }
 
+/** How far an export is, not more often than a reader can follow. */
+let lastTold = 0;
+function tell(stage: string, done: number, all: number): void {
+  if (performance.now() - lastTold < 100) return;
+  lastTold = performance.now();
+  scope.postMessage({ kind: 'told', stage, share: all ? done / all : null });
+}
+
 function handle(message: ToWorker): void {
   if (message.kind === 'start')
-    void Core.start(message.wasm).then(
+    void Core.start(message.wasm, tell).then(
       (made) => {
         core = made;
         for (const [name, bytes] of message.assets) core.asset(name, bytes);
@@ -95,7 +107,9 @@ function handle(message: ToWorker): void {
     );
   else if (message.kind === 'asset') core!.asset(message.name, message.bytes);
   else if (message.kind === 'open') open(message);
-  else if (message.kind === 'notation') scope.postMessage({ kind: 'notation', id: message.id, reply: core!.notation(message.text, message.real) });
+  else if (message.kind === 'notation') scope.postMessage({ kind: 'answer', id: message.id, reply: core!.notation(message.text, message.real) });
+  else if (message.kind === 'mesh') scope.postMessage({ kind: 'answer', id: message.id, reply: core!.takeMesh(message.name, message.bytes) });
+  else if (message.kind === 'export') scope.postMessage({ kind: 'exported', reply: core!.export(message.text, message.format, message.eye) });
   else if (message.job) {
     core!.traceBegin(message.job.eye, message.job.fov, message.job.width, message.job.height, message.job.shift);
     trace = { job: message.job, tiles: tilesOf(message.job), next: 0, pass: 0 };

@@ -29,6 +29,12 @@ export function axes(eye: Eye): { forward: g.Vector; right: g.Vector; up: g.Vect
   return { forward: [c * cp, s * cp, sp], right: [s, -c, 0], up: [-c * sp, -s * sp, cp] };
 }
 
+/** The eye as the core takes it (core.h): 19 numbers. */
+export function eyeNumbers(eye: Eye): number[] {
+  const a = axes(eye);
+  return [...eye.roomFromEye, eye.z, ...a.forward, ...a.right, ...a.up];
+}
+
 const margin = 0.03; // how near to a wall, floor or ceiling the eye comes
 
 /** Steps `ahead` and `aside` (to the right), as lengths. At a wall the eye slides along it; or it steps through a mirror, and the room flips. */

@@ -6,7 +6,7 @@ import type { Vector } from '../room/geometry';
 import { RoomView } from '../room/view';
 import { difference as diff, SceneText } from './document';
 import { textExtensions } from './editor';
-import type { CopiesReply, Diagnostic, Orbifold, SceneReply } from './reply';
+import type { CopiesReply, Diagnostic, ExportReply, MeshReply, Orbifold, SceneReply } from './reply';
 import { append, get, getScalar, keysAt, remove, set, written, type Path } from './splice';
 
 export type Selection = { kind: 'room' } | { kind: 'wall' | 'object' | 'lamp'; index: number };
@@ -44,7 +44,7 @@ export const text = document_.text;
 export const errors = computed(() => diagnostics.value.filter((d) => d.severity === 'error'));
 
 let worker: Worker | null = null;
-let asked = 0;
+let asked = 0, askedOpen = 0;
 let replyFor: Map<number, (reply: unknown) => void> = new Map();
 let listeners: ((message: FromWorker) => void)[] = [];
 export let view: RoomView | null = null;
@@ -54,8 +54,12 @@ export const setView = (made: RoomView): void => void (view = made);
 /** The first eye, to which the compass refers. */
 export let home: Eye | null = null;
 
+/** What every worker begins with. */
+let seed: { address: string; wasm: ArrayBuffer; assets: Map<string, Uint8Array> };
+
 export function startWorker(source: string, wasm: ArrayBuffer, assets: [string, Uint8Array][]): Promise<void> {
-  worker = new Worker(URL.createObjectURL(new Blob([source], { type: 'text/javascript' })));
+  seed = { address: URL.createObjectURL(new Blob([source], { type: 'text/javascript' })), wasm, assets: new Map(assets) };
+  worker = new Worker(seed.address);
   return new Promise((resolve, reject) => {
     worker!.onmessage = (event: MessageEvent<FromWorker>) => {
       const m = event.data;
@@ -64,11 +68,35 @@ export function startWorker(source: string, wasm: ArrayBuffer, assets: [string, 
       receive(m);
     };
     worker!.onerror = (event) => reject(new Error(event.message));
-    send({ kind: 'start', wasm, assets }, [wasm]);
+    send({ kind: 'start', wasm, assets });
   });
 }
 export const send = (m: ToWorker, transfer: Transferable[] = []): void => worker?.postMessage(m, transfer);
 export const listen = (listener: (m: FromWorker) => void): void => void listeners.push(listener);
+
+/** An export in a worker of its own, so that the room goes on; null: there is none. */
+export const exporting = signal<{ format: string; stage: string; share: number | null } | null>(null);
+let exporter: Worker | null = null;
+export function stopExport(): void {
+  exporter?.terminate();
+  exporter = exporting.value = null;
+}
+export function exportScene(format: string, eyeNumbers: number[] | null): Promise<ExportReply> {
+  stopExport();
+  const own = (exporter = new Worker(seed.address));
+  exporting.value = { format, stage: 'starting', share: null };
+  return new Promise<ExportReply>((resolve, reject) => {
+    own.onmessage = (event: MessageEvent<FromWorker>) => {
+      const m = event.data;
+      if (m.kind === 'ready') own.postMessage({ kind: 'export', text: text.value, format, eye: eyeNumbers } satisfies ToWorker);
+      else if (m.kind === 'told') exporting.value = { format, stage: m.stage, share: m.share };
+      else if (m.kind === 'exported') resolve(m.reply);
+      else if (m.kind === 'failed') reject(new Error(m.message));
+    };
+    own.onerror = (event) => reject(new Error(event.message));
+    own.postMessage({ kind: 'start', wasm: seed.wasm, assets: [...seed.assets] } satisfies ToWorker);
+  }).finally(() => own === exporter && stopExport());
+}
 
 let askedText = '';
 let answeredText = '';
@@ -104,7 +132,7 @@ function quietDrag(): void {
 export const onceDragEnds = (act: () => void): void => void (afterDrag.length === 0 && afterDrag.push(act));
 
 function receive(m: FromWorker): void {
-  if (m.kind === 'opened' && m.id === asked) {
+  if (m.kind === 'opened' && m.id === askedOpen) {
     answeredText = askedText;
     if (m.scene.ok) goodText = askedText;
     batch(() => {
@@ -121,8 +149,8 @@ function receive(m: FromWorker): void {
       clampSelection(m.scene);
     });
     if (ending && answeredText === text.value) settleDrag();
-  } else if (m.kind === 'light' && m.id === asked) lightShare.value = m.light.all ? m.light.done / m.light.all : 1;
-  else if (m.kind === 'notation') {
+  } else if (m.kind === 'light' && m.id === askedOpen) lightShare.value = m.light.all ? m.light.done / m.light.all : 1;
+  else if (m.kind === 'answer') {
     replyFor.get(m.id)?.(m.reply);
     replyFor.delete(m.id);
   }
@@ -149,8 +177,7 @@ export function watchText(): void {
     empty.value = false;
     clearTimeout(timer);
     timer = window.setTimeout(() => {
-      askedText = now;
-      send({ kind: 'open', id: ++asked, text: now, copies: 64, most: 3000 });
+      openNow(now);
     }, 15);
   });
   let saving = 0;
@@ -168,10 +195,38 @@ export function watchText(): void {
 }
 export const storageKey = 'orbc scene ' + location.pathname;
 
-export function askNotation(symbol: string, real: boolean): Promise<{ diagnostics: Diagnostic[]; orbifold?: Orbifold }> {
-  const id = Math.floor(Math.random() * 2 ** 31);
-  send({ kind: 'notation', id, text: symbol, real });
-  return new Promise((resolve) => replyFor.set(id, (reply) => resolve(reply as { diagnostics: Diagnostic[]; orbifold?: Orbifold })));
+function ask<T>(make: (id: number) => ToWorker): Promise<T> {
+  const id = ++asked;
+  send(make(id));
+  return new Promise((resolve) => replyFor.set(id, (reply) => resolve(reply as T)));
+}
+export const askNotation = (symbol: string, real: boolean): Promise<{ diagnostics: Diagnostic[]; orbifold?: Orbifold }> =>
+  ask((id) => ({ kind: 'notation', id, text: symbol, real }));
+
+// ---- files that scenes name --------------------------------------------------------------------------------------------------------
+
+/** Whether files have been given to the page since it was opened. */
+export let filesChanged = false;
+export const files = (): ReadonlyMap<string, Uint8Array> => seed.assets;
+export function addFile(name: string, bytes: Uint8Array): void {
+  seed.assets.set(name, bytes);
+  filesChanged = true;
+  send({ kind: 'asset', name, bytes });
+}
+/** Has the core read a mesh file; it is kept if it is one. */
+export async function addMesh(name: string, bytes: Uint8Array): Promise<MeshReply> {
+  const reply = await ask<MeshReply>((id) => ({ kind: 'mesh', id, name, bytes }));
+  if (reply.triangles === undefined) return reply;
+  seed.assets.set(name, bytes);
+  filesChanged = true;
+  return reply;
+}
+/** Has the core read the text again, since files have changed. */
+export const reread = (): void => openNow(text.value);
+function openNow(now: string): void {
+  if (now.trim() === '') return;
+  askedText = now;
+  send({ kind: 'open', id: (askedOpen = ++asked), text: now, copies: 64, most: 3000 });
 }
 
 // ---- edits: each is one splice of the text ---------------------------------------------------------------------------------------

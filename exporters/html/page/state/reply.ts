@@ -120,3 +120,16 @@ export interface CopiesReply {
   lengths: Uint8Array;
   whole: boolean;
 }
+/** Files of an export; the main one has no name. */
+export interface ExportReply {
+  diagnostics: Diagnostic[];
+  files: { name: string; bytes: Uint8Array }[];
+  copies: number;
+  triangles: number;
+  error_px: number;
+}
+/** Without triangles the file is none. */
+export interface MeshReply {
+  diagnostics: Diagnostic[];
+  triangles?: number;
+}

@@ -1,7 +1,7 @@
 /** A scene as part of an address: `#s=` and the deflated text in base64url. Nothing is sent anywhere: browsers keep what follows the #. */
 const largest = 1 << 20; // characters of a scene that a link may unfold to
 
-async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
+async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream, most = largest): Promise<Uint8Array> {
   const reader = new Blob([bytes as BlobPart]).stream().pipeThrough(stream as ReadableWritablePair<Uint8Array, Uint8Array>).getReader();
   const parts: Uint8Array[] = [];
   let size = 0;
@@ -9,7 +9,7 @@ async function through(bytes: Uint8Array, stream: CompressionStream | Decompress
     const { done, value } = await reader.read();
     if (done) break;
     size += value.length;
-    if (size > largest) throw new Error('the scene in this link is too large');
+    if (size > most) throw new Error('the scene in this link is too large');
     parts.push(value);
   }
   const whole = new Uint8Array(size);
@@ -18,8 +18,11 @@ async function through(bytes: Uint8Array, stream: CompressionStream | Decompress
   return whole;
 }
 
+/** A raw deflate stream (RFC 1951). */
+export const deflated = (bytes: Uint8Array): Promise<Uint8Array> => through(bytes, new CompressionStream('deflate-raw'), Infinity);
+
 export async function linkOf(text: string): Promise<string> {
-  const bytes = await through(new TextEncoder().encode(text), new CompressionStream('deflate-raw'));
+  const bytes = await deflated(new TextEncoder().encode(text));
   let binary = '';
   for (const byte of bytes) binary += String.fromCharCode(byte);
   return '#s=' + btoa(binary).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');

@@ -1,7 +1,7 @@
 /** The truth layer: at rest the tracer in the worker refines the picture tile by tile over the live one, and a key shows how the two differ. */
 import type { FromWorker } from '../core/worker';
 import * as app from '../state/app';
-import { axes } from '../room/eye';
+import { eyeNumbers } from '../room/eye';
 import type { RoomView, Shot } from '../room/view';
 
 const samples = 16;
@@ -39,11 +39,10 @@ export class Truth {
     const width = Math.round(canvas.width * this.scale), height = Math.round(canvas.height * this.scale);
     this.canvas.width = width;
     this.canvas.height = height;
-    const a = axes(shot.eye);
     app.send({
       kind: 'trace',
       job: {
-        eye: [...shot.eye.roomFromEye, shot.eye.z, ...a.forward, ...a.right, ...a.up],
+        eye: eyeNumbers(shot.eye),
         fov: shot.fov,
         width,
         height,

@@ -5,7 +5,8 @@ import { linkOf } from '../state/share';
 import { holonomy } from '../room/walk';
 import { Icon } from './icons';
 import { examples } from './starters';
-import { saveFile, savePicture, savePage, openFile } from './files';
+import { saveExport, saveFile, savePage, savePicture } from './files';
+import { openFile } from './take';
 
 export function Bar() {
   const design = app.mode.value === 'design';
@@ -135,7 +136,7 @@ export function Menus() {
   if (app.menu.value === 'more')
     return (
       <div class="menu plate" role="menu" aria-label="More">
-        {item('page', 'Open a file', 'YAML', openFile)}
+        {item('page', 'Open files', 'scene, mesh, picture', openFile)}
         {item('room', 'New scene', '', () => app.document_.replaceAll(''))}
         {item('mirror', app.throughMirrors.value ? 'Mirrors are walls' : 'Walk through mirrors', 'T', () => (app.throughMirrors.value = !app.throughMirrors.value))}
         {item('image', app.projector.value ? 'Leave projector' : 'Projector', 'P', () => (app.projector.value = !app.projector.value))}
@@ -160,9 +161,12 @@ export function Menus() {
       <p>The whole scene is in the link. Nothing is uploaded.</p>
       <hr />
       {item('text', 'Scene', 'YAML', () => saveFile('scene.yaml', app.text.value, 'text/yaml'))}
-      {item('page', 'This page', 'HTML', savePage)}
-      {item('image', 'Picture', 'PNG', savePicture)}
-      <p>For POV-Ray, Blender and print, compile the scene: orbc compile scene.yaml -o scene.glb</p>
+      {item('page', 'This page', 'HTML', () => void savePage())}
+      {item('image', 'Picture', 'PNG · this eye', savePicture)}
+      {item('cube', 'Blender and viewers', 'GLB · this eye', () => void saveExport('glb'))}
+      {item('eye', 'POV-Ray', 'POV · this eye', () => void saveExport('pov'))}
+      {item('room', 'Tiling, for print', 'SVG', () => void saveExport('svg'))}
+      <p>Straight rays draw these files: they show the mirrors' images as copies, true for this eye.</p>
     </div>
   );
 }
@@ -234,7 +238,7 @@ export function Empty() {
             <Icon name="page" />
             Open a file
           </button>
-          <span class="dim end">or drop a scene anywhere</span>
+          <span class="dim end">or drop a scene or a mesh anywhere</span>
         </form>
       </div>
     </div>
@@ -265,6 +269,23 @@ export function Tag() {
   return (
     <div class={`tag plate ${t.blocked ? 'blocked' : ''}`} style={{ left: `${t.x}px`, top: `${t.y}px` }}>
       <b>{t.title}</b> <span class="dim">{t.more}</span>
+    </div>
+  );
+}
+
+/** An export on its way. */
+export function Exporting() {
+  const now = app.exporting.value;
+  if (!now) return null;
+  return (
+    <div id="exporting" class="plate" role="status">
+      <span>
+        Writing {now.format.toUpperCase()} · {now.stage}
+        {now.share === null ? '' : ` ${Math.round(100 * now.share)} %`}
+      </span>
+      <button class="soft" onClick={app.stopExport}>
+        Cancel
+      </button>
     </div>
   );
 }

@@ -1,7 +1,8 @@
-/** Files in and out. All stays on this machine. */
+/** Files out of the page. All stays on this machine. */
 import * as app from '../state/app';
-
-const largestScene = 4 << 20;
+import { eyeNumbers } from '../room/eye';
+import { deflated } from '../state/share';
+import { zip } from './zip';
 
 export function saveFile(name: string, content: BlobPart, type: string): void {
   const link = document.createElement('a');
@@ -13,31 +14,38 @@ export function saveFile(name: string, content: BlobPart, type: string): void {
 export function savePicture(): void {
   app.view?.canvas.toBlob((blob) => blob && saveFile('room.png', blob, 'image/png'));
 }
-/** The page as it came, with the scene of now. */
-export function savePage(): void {
-  const copy = pristine.replace(/(<script type="application\/json" id="scene">)[\s\S]*?(<\/script>)/, (_, a: string, b: string) => a + JSON.stringify(app.text.value).replace(/</g, '\\u003c') + b);
+
+/** The page as it came, with the scene of now and the files that were dropped on it. */
+export async function savePage(): Promise<void> {
+  const put = (page: string, id: string, value: unknown): string =>
+    page.replace(new RegExp(`(<script type="application/json" id="${id}">)[\\s\\S]*?(</script>)`), (_, a: string, b: string) => a + JSON.stringify(value).replace(/</g, '\\u003c') + b);
+  let copy = put(pristine, 'scene', app.text.value);
+  if (app.filesChanged) copy = put(copy, 'assets', await Promise.all([...app.files()].map(async ([name, bytes]) => [name, base64(await deflated(bytes))])));
   saveFile('room.html', copy, 'text/html');
 }
-let pristine = '';
-export const rememberPage = (): void => void (pristine = '<!doctype html>\n' + document.documentElement.outerHTML);
-
-export function openFile(): void {
-  const input = document.createElement('input');
-  input.type = 'file';
-  input.accept = '.yaml,.yml,text/yaml';
-  input.onchange = () => input.files?.[0] && void take(input.files[0]);
-  input.click();
+function base64(bytes: Uint8Array): string {
+  let binary = '';
+  for (let i = 0; i < bytes.length; i += 0x8000) binary += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+  return btoa(binary);
 }
-export async function take(file: File): Promise<void> {
-  if (file.size > largestScene) {
-    app.message.value = `“${file.name}” has ${(file.size / (1 << 20)).toFixed(0)} MB; a scene has at most 4 MB. Nothing was changed.`;
-    return;
+let pristine = '';
+export function rememberPage(): void {
+  pristine = '<!doctype html>\n' + document.documentElement.outerHTML;
+}
+
+/** What the core writes, seen by the eye of now; what has several files becomes an archive. */
+export async function saveExport(format: 'glb' | 'pov' | 'svg'): Promise<void> {
+  const eye = app.eye.value;
+  const moved = eye !== null && eye !== app.home;
+  try {
+    const reply = await app.exportScene(format, moved ? eyeNumbers(eye) : null);
+    const [main, ...beside] = reply.files;
+    if (!main) {
+      const wrong = reply.diagnostics.find((d) => d.severity === 'error');
+      app.message.value = `No ${format.toUpperCase()} was made: ${wrong ? [wrong.message, wrong.hint].filter(Boolean).join('; ') : 'the scene has errors'}.`;
+    } else if (beside.length === 0) saveFile(`scene.${format}`, main.bytes as BlobPart, { glb: 'model/gltf-binary', pov: 'text/plain', svg: 'image/svg+xml' }[format]);
+    else saveFile(`scene-${format}.zip`, zip([{ name: `scene.${format}`, bytes: main.bytes }, ...beside]), 'application/zip');
+  } catch (error) {
+    app.message.value = `No ${format.toUpperCase()} was made: ${String(error instanceof Error ? error.message : error)}. Your scene is safe; the program orbc has more memory than a page.`;
   }
-  if (!/\.ya?ml$/i.test(file.name)) {
-    app.message.value = `“${file.name}” is no scene (YAML). Meshes belong into the scene's folder: orbc compile scene.yaml -o scene.html. Nothing was changed.`;
-    return;
-  }
-  const text = await file.text();
-  app.message.value = '';
-  app.document_.replaceAll(text);
 }
