@@ -66,6 +66,7 @@ BESIDE = {
     'room.scale': ['orbifold=*333'],
     'room.aspect': ['orbifold=*2222'],
     'room.length': ['orbifold=**'],
+    'camera.eye_separation': ['camera.projection=stereo', 'camera.size=[64, 64]'],
     'white': [LAMP],
     'ambient': [LAMP],
     'bake': [LAMP],

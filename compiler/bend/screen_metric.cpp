@@ -88,6 +88,7 @@ ScreenMetric screen_metric(const place::Camera& eye, const BendOptions& options)
       }
       break;
     case scene::Projection::panorama:
+    case scene::Projection::stereo:  // no export has it
       metric.pixels = eye.width / (2 * std::numbers::pi);
       metric.cos_border = 0.25;  // the rows near the poles show one direction many times
       break;

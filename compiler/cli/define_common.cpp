@@ -34,8 +34,10 @@ void add_scene(CLI::App& command, SceneArguments& scene) {
   command.add_option("--max-bounces", scene.max_bounces, "Mirrors a ray may meet, instead of the scene's")
       ->check(CLI::Range(0, 1000))
       ->type_name("N");
-  command.add_option("--projection", scene.projection, "Camera instead of the scene's")
-      ->check(CLI::IsMember({"perspective", "panorama", "cylinder"}))
+  command
+      .add_option("--projection", scene.projection,
+                  "Camera instead of the scene's; stereo: two panoramas, that of the left eye on top (tracer)")
+      ->check(CLI::IsMember({"perspective", "panorama", "cylinder", "stereo"}))
       ->type_name("NAME");
   command.add_flag("--expected-background", scene.expected_background,
                    "Where mirrors are followed no further show the colour expected beyond, instead of the background");

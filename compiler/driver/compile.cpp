@@ -49,7 +49,7 @@ Result<Compiled> compile(const PreparedScene& scene, const place::Camera& eye, c
   if (native_lights::uses_native_lights(scene.scene()) && options.bend.view != bend::View::eye)
     return make_error("driver.native-view", "lamps of the renderer's own hang where one eye sees them: --view disk has none",
                       "bake the light (`lights: baked`), or leave out --view disk", scene.scene().span);
-  if (auto unsupported = unsupported_features(scene); !unsupported.empty()) return unsupported;
+  if (auto unsupported = unsupported_features(scene, eye, options.bend.view); !unsupported.empty()) return unsupported;
   const Job job{scene.drawn_scene(), scene, eye, scene.scene().cover, options, {executor, progress}};
   auto drawing = draw(job);
   if (!drawing) return with_bounces_that_fit(drawing.error(), job);

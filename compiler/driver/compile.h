@@ -63,7 +63,7 @@ struct Compiled {
 /// Unfolds, bends and lights a scene for one eye: the upper road of compiler/README.md.
 /// Makes:       the same product for any executor; with a budget at most so many triangles. Copies left out for their size in the picture
 ///              (`min_pixels`, or a budget) are replaced by impostors in the mirrors through which they are seen.
-/// Diagnostics: those of cover, bend, bake, lod and native_lights; driver.glowing-mirror, driver.native-view. Notes:
+/// Diagnostics: those of cover, bend, bake, lod and native_lights; driver.glowing-mirror, driver.native-view, driver.stereo-export. Notes:
 /// driver.copies-left-out,
 ///              driver.no-curtains, driver.no-lens, driver.eye-too-near.
 [[nodiscard]] Result<Compiled> compile(const PreparedScene& scene, const place::Camera& eye, const CompileOptions& options,

@@ -50,7 +50,11 @@ bool may_exceed_memory(const Job& job, const Detail& detail, std::size_t copy_co
 
 }  // namespace
 
-Diagnostics unsupported_features(const PreparedScene& scene) {
+Diagnostics unsupported_features(const PreparedScene& scene, const place::Camera& eye, bend::View view) {
+  if (eye.projection == scene::Projection::stereo && view == bend::View::eye)
+    return {make_error("driver.stereo-export",
+                       "an export is bent for one eye, and a stereo panorama has two, which move from column to column",
+                       "draw it with the tracer (`orbc trace`), or export `--projection panorama`", scene.scene().camera.span)};
   const std::vector<place::PlacedMirror>& mirrors = scene.interior().mirrors;
   if (std::none_of(mirrors.begin(), mirrors.end(), [](const place::PlacedMirror& m) { return !(m.emission == scene::Color{}); })) return {};
   return located({make_error("driver.glowing-mirror", "a mirror that glows adds light to all that is seen in it: exports can only multiply",
@@ -81,7 +85,7 @@ Diagnostics with_bounces_that_fit(Diagnostics errors, const Job& job) {
 }
 
 Result<cover::Plan> plan(const PreparedScene& scene, const place::Camera& eye, const CompileOptions& options, const Executor& executor) {
-  if (auto unsupported = unsupported_features(scene); !unsupported.empty()) return unsupported;
+  if (auto unsupported = unsupported_features(scene, eye, options.bend.view); !unsupported.empty()) return unsupported;
   const Progress silent;
   const Job job{scene.drawn_scene(), scene, eye, scene.scene().cover, options, {executor, silent}};
   auto planned = plan_job(job);

@@ -5,7 +5,7 @@ namespace orbc::driver {
 
 /// Why a scene has no export at all. Makes: no diagnostics when it has some.
 /// Diagnostics: driver.glowing-mirror.
-[[nodiscard]] Diagnostics unsupported_features(const PreparedScene& scene);
+[[nodiscard]] Diagnostics unsupported_features(const PreparedScene& scene, const place::Camera& eye, bend::View view);
 
 /// Plans a picture whose copies and levels of detail are chosen: estimates its size from a sample of the copies. Bakes nothing.
 [[nodiscard]] Result<cover::Plan> plan_detail(const Job& job, const Detail& detail);

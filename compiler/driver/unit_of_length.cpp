@@ -123,6 +123,7 @@ scene::Lamp scaled(scene::Lamp lamp, Factor factor) {
 scene::Camera scaled(scene::Camera camera, Factor factor) {
   camera.place = scaled(std::move(camera.place), factor);
   if (auto* at = std::get_if<scene::Place>(&camera.look_at.value)) *at = scaled(std::move(*at), factor);
+  if (camera.eye_separation) *camera.eye_separation *= factor;
   if (!camera.lens) return camera;
   camera.lens->radius *= factor;
   std::visit(Overload{[&](double& distance) { distance *= factor; }, [](scene::LookAtObject&) {},
@@ -150,6 +151,7 @@ room::Room scaled(room::Room room, double factor) {
 place::Camera scaled(place::Camera eye, double factor) {
   eye.room_from_eye = scaled(eye.room_from_eye, factor);
   eye.z *= factor;
+  eye.eye_separation *= factor;
   if (eye.lens) eye.lens = place::ThinLens{factor * eye.lens->radius, factor * eye.lens->focus_distance};
   return eye;
 }

@@ -231,7 +231,69 @@ Result<ThinLens> make_lens(const scene::Lens& lens, const Interior& interior, co
   return ThinLens{lens.radius, *distance};
 }
 
+// ---- stereo -------------------------------------------------------------------------------------------------------------
+
+/// The triangles of a part below or above a disk about a point of the floor, and possibly more.
+PlacedMesh near_part(const geometry::Space space, const PlacedMesh& part, const Point& centre, double radius) {
+  constexpr double kSlack = 1e-6;
+  PlacedMesh near;
+  near.kind = part.kind;
+  near.name = part.name;
+  near.floor = part.floor;
+  near.z = part.z;
+  for (const mesh::Triangle& t : part.triangles) {
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      longest = std::fmax(longest, geometry::distance(space, part.floor[t[i]], part.floor[t[(i + 1) % 3]]));
+    // No point of a triangle is farther from a corner than its longest edge.
+    if (geometry::distance(space, centre, part.floor[t[0]]) <= radius + longest + kSlack) near.triangles.push_back(t);
+  }
+  return near;
+}
+
+/// What an eye of the stereo panorama would stand in, or "".
+std::string stereo_obstacle(const Interior& interior, const Camera& camera) {
+  const double radius = camera.eye_separation / 2;
+  const geometry::Space space = interior.polygon.space;
+  const Point middle = camera.room_from_eye * Point{};
+  if (!interior.polygon.walls.empty())
+    if (const Overhang nearest = overhang(interior.polygon, middle); -nearest.distance <= radius)
+      return fmt::format("wall {}", nearest.wall + 1);
+  std::vector<Position> eyes;
+  for (int x = 0; x < camera.width; ++x) {
+    const Vector3 p = eye_offset(camera, x + 0.5, 0);
+    eyes.push_back({camera.room_from_eye * geometry::point_from_log(space, {p.x, p.y}), camera.z});
+    const Vector3 q = -1.0 * p;
+    eyes.push_back({camera.room_from_eye * geometry::point_from_log(space, {q.x, q.y}), camera.z});
+  }
+  for (const PlacedMesh& part : interior.parts) {
+    if (part.kind != PartKind::object && part.kind != PartKind::frame) continue;
+    const PlacedMesh near = near_part(space, part, middle, radius);
+    if (near.triangles.empty()) continue;
+    for (const Position& eye : eyes)
+      if (is_inside(near, eye)) return part.name;
+  }
+  return "";
+}
+
+Diagnostics stereo_error(const scene::Camera& spec, const Interior& interior, const Camera& camera) {
+  const std::string what = stereo_obstacle(interior, camera);
+  if (what.empty()) return {};
+  return {
+      make_error("place.stereo-eye",
+                 fmt::format("an eye of the stereo panorama, half of `eye_separation` beside the camera's place, would stand in {}", what),
+                 "give the camera a smaller `eye_separation`, or move it", spec.eye_separation ? spec.eye_separation_span : spec.span)};
+}
+
+bool is_upper(const Camera& camera, double y) { return y < camera.height / 2.0; }
+
 }  // namespace
+
+Vector3 eye_offset(const Camera& camera, double x, double y) {
+  if (camera.projection != Projection::stereo) return {0, 0, 0};
+  const double azimuth = kPi * (2 * x / camera.width - 1), to_the_right = (is_upper(camera, y) ? -0.5 : 0.5) * camera.eye_separation;
+  return to_the_right * (math::cos(azimuth) * camera.right - math::sin(azimuth) * camera.forward);
+}
 
 Vector3 direction_through(const Camera& camera, double x, double y) {
   const double u = 2 * x / camera.width - 1, v = 1 - 2 * y / camera.height, aspect = static_cast<double>(camera.height) / camera.width;
@@ -239,8 +301,10 @@ Vector3 direction_through(const Camera& camera, double x, double y) {
     const double t = math::tan(camera.fov.radians / 2);
     return geometry::normalised(camera.forward + (u * t) * camera.right + (v * aspect * t) * camera.up);
   }
-  if (camera.projection == Projection::panorama) {
-    const double a = kPi * u, e = kPi / 2 * v;
+  if (camera.projection == Projection::panorama || camera.projection == Projection::stereo) {
+    const double rows = camera.height / 2.0;
+    const double a = kPi * u,
+                 e = kPi / 2 * (camera.projection == Projection::panorama ? v : 1 - 2 * (is_upper(camera, y) ? y : y - rows) / rows);
     return (math::cos(e) * math::cos(a)) * camera.forward + (math::cos(e) * math::sin(a)) * camera.right + math::sin(e) * camera.up;
   }
   const double a = camera.fov.radians / 2 * u, height = v * aspect * camera.fov.radians / 2;
@@ -258,13 +322,15 @@ std::optional<std::array<double, 2>> pixel_of(const Camera& camera, const Vector
   const double azimuth = math::atan2(r, f), flat = math::hypot(r, f);
   if (camera.projection == Projection::panorama)
     return std::array<double, 2>{w * (azimuth / (2 * kPi) + 0.5), h * (0.5 - math::atan2(u, flat) / kPi)};
+  if (camera.projection == Projection::stereo)
+    return std::array<double, 2>{w * (azimuth / (2 * kPi) + 0.5), h / 2 * (0.5 - math::atan2(u, flat) / kPi)};
   if (!(flat > 0)) return std::nullopt;
   return std::array<double, 2>{w * (azimuth / camera.fov.radians + 0.5), h / 2 - w * (u / flat) / camera.fov.radians};
 }
 
 double pixels_per_radian(const Camera& camera) {
   if (camera.projection == Projection::perspective) return camera.width / 2.0 / math::tan(camera.fov.radians / 2);
-  return camera.width / (camera.projection == Projection::panorama ? 2 * kPi : camera.fov.radians);
+  return camera.width / (camera.projection == Projection::cylinder ? camera.fov.radians : 2 * kPi);
 }
 
 const PlacedMesh* enclosing_object(const Interior& interior, const Position& at) {
@@ -301,6 +367,10 @@ Result<Camera> make_camera(const scene::Scene& scene, const Interior& interior) 
     Result<ThinLens> lens = make_lens(*spec.lens, interior, camera);
     if (!lens) return std::move(lens).error();
     camera.lens = *lens;
+  }
+  if (camera.projection == Projection::stereo) {
+    camera.eye_separation = spec.eye_separation.value_or(scene::kEyeSeparation * interior.height);
+    if (Diagnostics errors = stereo_error(spec, interior, camera); !errors.empty()) return errors;
   }
   return camera;
 }

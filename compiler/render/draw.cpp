@@ -65,8 +65,18 @@ struct PixelSums {
   }
 };
 
+/// The ray of one of two eyes: its place beside the camera's, its direction transported in parallel along the geodesic there.
+trace::Ray stereo_ray(const place::Camera& eye, double x, double y) {
+  const geometry::Space space = eye.room_from_eye.space;
+  const geometry::Vector3 d = place::direction_through(eye, x, y), offset = place::eye_offset(eye, x, y);
+  const geometry::Isometry room_from_this_eye = eye.room_from_eye * geometry::translation_by(space, offset.x, offset.y);
+  return trace::ray_from(space, {room_from_this_eye * geometry::Point(), eye.z},
+                         {room_from_this_eye * geometry::Tangent(0, d.x, d.y), d.z});
+}
+
 // In: the eye's point of the floor.
 trace::Ray eye_ray_from(const place::Camera& eye, const geometry::Point& at, double x, double y) {
+  if (eye.projection == scene::Projection::stereo) return stereo_ray(eye, x, y);
   const geometry::Vector3 d = place::direction_through(eye, x, y);
   const geometry::Tangent floor = eye.room_from_eye * geometry::Tangent(0, d.x, d.y);
   return trace::ray_from(eye.room_from_eye.space, {at, eye.z}, {floor, d.z});

@@ -89,6 +89,13 @@ class Checker {
           "scene.stretched", fmt::format("a panorama shows 360° × 180°; {}×{} pixels stretch it", camera.size[0], camera.size[1]),
           fmt::format("make it twice as wide as high: size: [{0}, {1}], or --size {0}x{1}", 2 * camera.size[1], camera.size[1]),
           camera.size_span));
+    if (camera.projection == Projection::stereo && std::abs(ratio - 1) > 0.01)
+      diagnostics_.push_back(make_warning(
+          "scene.stretched",
+          fmt::format("two panoramas of 360° × 180°, one above the other, are a square; {}×{} pixels stretch them", camera.size[0],
+                      camera.size[1]),
+          fmt::format("make it as wide as high: size: [{0}, {0}], or --size {0}x{0}", std::max(camera.size[0], camera.size[1])),
+          camera.size_span));
   }
 
   void check_lens(const Located<std::variant<double, LookAtObject, Place>>& focus) {

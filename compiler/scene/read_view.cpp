@@ -114,15 +114,23 @@ std::vector<Lamp> read_lamps(Reader& reader, const Node& node, const RoomFacts& 
 Camera read_camera(Reader& reader, const Node& node, const RoomFacts& facts) {
   Camera camera;
   camera.span = camera.place.span = node.span;
-  const Fields fields(reader, node, "the camera", {"at", "look_at", "fov", "roll", "lens", "size", "projection"});
+  const Fields fields(reader, node, "the camera", {"at", "look_at", "fov", "roll", "lens", "size", "projection", "eye_separation"});
   if (const Node* at = fields.find("at")) camera.place = read_place(reader, *at, "`at`", facts);
-  camera.projection = fields.choice<Projection>(
-      "projection", camera.projection,
-      {{"perspective", Projection::perspective}, {"panorama", Projection::panorama}, {"cylinder", Projection::cylinder}});
+  camera.projection = fields.choice<Projection>("projection", camera.projection,
+                                                {{"perspective", Projection::perspective},
+                                                 {"panorama", Projection::panorama},
+                                                 {"cylinder", Projection::cylinder},
+                                                 {"stereo", Projection::stereo}});
   const bool perspective = camera.projection == Projection::perspective;
   if (const Node* fov = fields.find("fov")) camera.fov_span = fov->span;
   camera.fov = fields.angle("fov", camera.fov, perspective ? Range{1, 170} : Range{1, 360});
-  if (camera.projection == Projection::panorama) fields.no_effect("fov", "a panorama shows all directions");
+  const bool stereo = camera.projection == Projection::stereo;
+  if (camera.projection == Projection::panorama || stereo) fields.no_effect("fov", "a panorama shows all directions");
+  if (const Node* separation = fields.find("eye_separation")) {
+    camera.eye_separation = fields.number("eye_separation", 0, kLength);
+    camera.eye_separation_span = separation->span;
+  }
+  if (!stereo) fields.no_effect("eye_separation", "only `projection: stereo` has two eyes");
   camera.roll = fields.angle("roll", camera.roll);
   if (const Node* lens = fields.find("lens")) camera.lens = read_lens(reader, *lens, facts);
   if (!perspective) {

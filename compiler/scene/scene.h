@@ -198,7 +198,9 @@ struct BakeSpec {
   int seed = 1;                     ///< of the tracer's random numbers
 };
 
-enum class Projection { perspective, panorama, cylinder };
+/// Of eyes that are 64 mm apart in a room of 2.5 m, in heights of the room.
+inline constexpr double kEyeSeparation = 0.064 / 2.5;
+enum class Projection { perspective, panorama, cylinder, stereo };
 struct LookAtObject { std::string name; };
 struct LookDirection { Angle azimuth, elevation; };              ///< azimuth from the +x direction of the eye's frame, counter-clockwise
 /// A thin lens. Only the tracer draws its blur.
@@ -215,6 +217,8 @@ struct Camera {
   Angle fov = Angle::from_degrees(75);  ///< horizontal field of view; panorama: always 360° × 180°
   Angle roll;                       ///< perspective: rotation about the line of sight, clockwise as seen from behind
   std::optional<Lens> lens;         ///< perspective; missing: a pinhole
+  std::optional<double> eye_separation;  ///< stereo: between the two eyes; missing: kEyeSeparation × the room's height
+  SourceSpan eye_separation_span;
   std::array<int, 2> size{800, 600};
   SourceSpan size_span, fov_span;
   SourceSpan span;

@@ -8,7 +8,14 @@ namespace orbc::gltf {
 namespace {
 
 const char* projection_name(scene::Projection projection) {
-  return projection == scene::Projection::perspective ? "perspective" : projection == scene::Projection::panorama ? "panorama" : "cylinder";
+  switch (projection) {
+    case scene::Projection::perspective:
+      return "perspective";
+    case scene::Projection::cylinder:
+      return "cylinder";
+    default:
+      return "panorama";
+  }
 }
 
 }  // namespace

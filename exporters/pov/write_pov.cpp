@@ -59,6 +59,7 @@ void write_camera(Pen& pen, const driver::Product& product) {
       break;
     }
     case scene::Projection::panorama:
+    case scene::Projection::stereo:  // refused before (driver.stereo-export)
       pen << "spherical\n  location " << at.location << "\n  direction " << at.forward << "\n  right " << -1.0 * at.right << "\n  up "
           << -1.0 * at.up << "\n  angle 360 180\n";
       break;

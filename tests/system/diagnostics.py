@@ -10,6 +10,7 @@ from helpers import BIN, ROOT, check, finish, folder, run
 
 ORBC = BIN / 'orbc'
 LENS = 'camera: {at: {polar: [0.5, 200deg]}, lens: {radius: 0.02, focus_distance: 0.5}}\ncover: {max_bounces: 1}'
+STEREO = 'camera: {projection: stereo, eye_separation: 0.03, at: {polar: [0.5, 200deg]}, size: [40, 40]}'
 HEAD = 'orbc: 1\norbifold: "*2222"\n'
 
 
@@ -49,6 +50,8 @@ with folder() as name:
          ['compile', *glb, '--max-triangles', '{least}']),
         ('cover.stacked-mirrors', 1, 'room: {walls: {1: {mirrors: [{height: [0, 0.4]}, {height: [0.4, 1], reflectance: 0.5}]}}}\ncover: {max_bounces: 2}',
          ['compile', *glb, '--view', 'disk']),
+        ('driver.stereo-export', 1, STEREO, ['compile', *glb]),
+        ('place.stereo-eye', 1, STEREO.replace('0.03', '1.2'), ['check']),
         ('driver.no-lens', 0, LENS, ['compile', *glb]),
         ('cli.few-lens-samples', 0, LENS, ['trace', '-o', where / 'out.png', '--size', '8x6', '--samples', '1']),
         ('cli.lens-left-out', None, LENS, ['verify', '--size', '8x6', '--verbose']),

@@ -1,6 +1,7 @@
 // Pictures in which matte light is interpolated against pictures that ask every lamp at every sample.
 #include "compiler/driver/trace_film.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,4 +74,22 @@ TEST_CASE("interpolated light gives the same picture for any executor", "[driver
   };
   CHECK(render::to_image(driver::trace_film(scene, {}, backwards)).rgba ==
         render::to_image(driver::trace_film(scene, {}, serial_executor())).rgba);
+}
+
+TEST_CASE("a stereo panorama of a flat room does not depend on the author's unit of length", "[driver]") {
+  const auto drawn = [](const std::string& text) {
+    const auto loaded = driver::load(scene::SceneText{std::make_shared<const SourceText>(SourceText{"stereo.yaml", text}), ""});
+    REQUIRE(loaded);
+    return render::to_image(driver::trace_film(*loaded, {}, serial_executor())).rgba;
+  };
+  const auto room = [](const char* scale, const char* place, const char* separation) {
+    return fmt::format(
+        "orbc: 1\norbifold: \"*2222\"\nroom: {{scale: {0}, height: {0}, floor: {{checker: [ivory, slategray], cell: {1}}}}}\n"
+        "camera: {{projection: stereo{2}, at: {{xy: [{1}, 0]}}, look_at: {{azimuth: 0, elevation: 0}}, size: [24, 24]}}\n"
+        "cover: {{max_bounces: 2}}\n",
+        scale, place, separation);
+  };
+  CHECK(drawn(room("1", "0.25", ", eye_separation: 0.125")) == drawn(room("4", "1", ", eye_separation: 0.5")));
+  CHECK(drawn(room("1", "0.25", "")) == drawn(room("4", "1", "")));
+  CHECK(drawn(room("1", "0.25", "")) != drawn(room("1", "0.25", ", eye_separation: 0.125")));
 }

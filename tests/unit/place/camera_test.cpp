@@ -328,3 +328,40 @@ TEST_CASE("the eye in the hole of a ring is not inside it, wherever the vertical
   }
   CHECK(inside > 50);
 }
+
+TEST_CASE("two eyes are 64 mm apart in a room of 2.5 m, unless the author says otherwise", "[place]") {
+  for (const char* notation : {"*333", "*22222", "*222"}) {
+    scene::Scene scene = bare_scene(notation);
+    scene.camera.projection = scene::Projection::stereo;
+    const Interior placed = interior_of(scene);
+    CHECK(make_camera(scene, placed).value().eye_separation == Approx(0.0256 * placed.height));
+    scene.camera.eye_separation = 0.05;
+    CHECK(make_camera(scene, placed).value().eye_separation == 0.05);
+    scene.camera.projection = scene::Projection::panorama;
+    CHECK(make_camera(scene, placed).value().eye_separation == 0);
+  }
+}
+
+TEST_CASE("a stereo panorama is refused where one of its eyes would stand in a wall or a body", "[place]") {
+  scene::Scene scene = bare_scene("*22222");
+  scene.objects.push_back(sphere_at(0.2, 100, 0.3, 0.1));
+  const Interior placed = interior_of(scene);
+  scene.camera.look_at.value = scene::LookDirection{};
+  scene.camera.projection = scene::Projection::stereo;
+  const auto error_at = [&](double r, double degrees, double z, double separation) {
+    scene.camera.place.floor = scene::AtPolar{r, Angle::from_degrees(degrees)};
+    scene.camera.place.z = z;
+    scene.camera.eye_separation = separation;
+    const auto eye = make_camera(scene, placed);
+    return eye ? "" : eye.error()[0].code + ": " + eye.error()[0].message;
+  };
+  CHECK(error_at(0, 0, 0.5, 0.05) == "");
+  const double to_wall = distance_to_boundary(placed.polygon, 0.7);
+  CHECK(error_at(to_wall - 0.01, 0.7 * 180 / M_PI, 0.5, 0.03).find("place.stereo-eye") == 0);
+  CHECK(error_at(to_wall - 0.01, 0.7 * 180 / M_PI, 0.5, 0.03).find("wall ") != std::string::npos);
+  CHECK(error_at(to_wall - 0.01, 0.7 * 180 / M_PI, 0.5, 0.01) == "");
+  // The ball is 0.1 wide at the height of its middle, 0.4, and begins 0.05 from an eye that stands 0.15 from its middle.
+  CHECK(error_at(0.35, 100, 0.4, 0.12).find("ball") != std::string::npos);
+  CHECK(error_at(0.35, 100, 0.4, 0.08) == "");
+  CHECK(error_at(0.35, 100, 0.7, 0.12) == "");  // above the ball
+}

@@ -259,6 +259,8 @@ TEST_CASE("shapes, cameras and covers are read", "[scene]") {
   CHECK(paper.cuts[1].length == 1.5);
   const Shape lengths = good("lengths-shape").scene.room.shape;
   CHECK(lengths.lengths == std::map<int, double>{{1, 0.9}, {3, 1.1}});
+  CHECK(good("stereo").scene.camera.projection == Projection::stereo);
+  CHECK(good("stereo").scene.camera.eye_separation == 0.05);
   const Camera panorama = good("panorama").scene.camera;
   CHECK(panorama.projection == Projection::panorama);
   CHECK(std::get<LookDirection>(panorama.look_at.value).elevation.degrees() == Approx(10));
