@@ -93,6 +93,7 @@ struct RenderArguments {
   int samples = 0;                  ///< per pixel; 0 = 4 for a picture to be looked at, 1 for other passes, which want the pixel's centre
   std::string pass = "color";       ///< tracer: what to draw
   bool exact = false;               ///< tracer: light every sample by itself
+  std::string noise;                ///< tracer: "1/255", until which samples are added; empty = as many as `samples`
 };
 
 struct AtArguments {

@@ -18,6 +18,14 @@ void add_exact(CLI::App& command, RenderArguments& a) {
                    "wherever it is smooth");
 }
 
+void add_noise(CLI::App& command, RenderArguments& a) {
+  command
+      .add_option("--noise", a.noise,
+                  "Tracer: add samples where they are needed, until no pixel is off by more than this share of white; at most --samples "
+                  "(default: 1024) each. The picture is written after every pass, so that it can be stopped at any time")
+      ->type_name("1/255");
+}
+
 }  // namespace
 
 void define_render(Program& program) {
@@ -36,6 +44,7 @@ void define_render(Program& program) {
   c->add_option("--pass", a.pass, "Tracer: what to draw; an .exr holds all of them")->capture_default_str()
       ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
   add_exact(*c, a);
+  add_noise(*c, a);
   add_compile_options(*c, a.compile);
   c->footer(
       "Examples:\n  orbc render s.yaml -o s.png\n  orbc render s.yaml -o s.png --engine povray --samples 9\n  orbc render s.yaml -o "
@@ -59,8 +68,10 @@ void define_trace(Program& program) {
   c->add_option("--pass", a.pass, "What to draw; an .exr holds all of them")->capture_default_str()
       ->check(CLI::IsMember({"color", "depth", "normal", "object", "bounces", "weight"}))->type_name("NAME");
   add_exact(*c, a);
+  add_noise(*c, a);
   c->footer(
-      "Examples:\n  orbc trace s.yaml -o s.png --samples 16\n  orbc trace s.yaml -o s.exr\n  orbc trace s.yaml -o depth.png --pass depth");
+      "Examples:\n  orbc trace s.yaml -o s.png --samples 16\n  orbc trace s.yaml -o s.png --noise 1/255\n  orbc trace s.yaml -o s.exr\n  "
+      "orbc trace s.yaml -o depth.png --pass depth");
   add_common(*c, program.common);
   program.commands.push_back({c, [arguments](const Common& common) { return render(*arguments, common); }});
 }

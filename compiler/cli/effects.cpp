@@ -85,6 +85,7 @@ constexpr Row kOptions[] = {
     {"colour", kSvg, never},
     {"pass", kTraced, with_all_passes},
     {"exact", kTraced, without_lamps},
+    {"noise", kTraced, never},
     {"off-edge", kPictures, with_samples},
 };
 

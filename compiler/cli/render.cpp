@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 
 #include "compiler/cli/child.h"
@@ -93,21 +94,77 @@ int render_elsewhere(const driver::PreparedScene& scene, const RenderArguments& 
   return kDone;
 }
 
+std::string bytes_of(const render::Film& film, const RenderArguments& a, PictureFormat format, double exposure) {
+  return format == PictureFormat::exr ? image_io::encode_exr(render::to_float_image(film))
+                                      : encoded(render::to_image(film, pass_of(a.pass), exposure), format);
+}
+
 int render_here(const driver::PreparedScene& scene, const RenderArguments& a, PictureFormat format, const Common& common) {
   ProgressBar bar(!common.quiet && stderr_is_terminal());
+  const double exposure = scene.scene().exposure;
   const render::Film film = driver::trace_film(scene, scene.loaded().eye, {.samples = a.samples, .exact = a.exact},
                                                driver::parallel_executor(common.threads), bar.progress());
-  write_output(a.compile.output, format == PictureFormat::exr
-                                     ? image_io::encode_exr(render::to_float_image(film))
-                                     : encoded(render::to_image(film, pass_of(a.pass), scene.scene().exposure), format));
+  write_output(a.compile.output, bytes_of(film, a, format, exposure));
   bar.clear();
   nlohmann::ordered_json result = result_of(a, format, scene.loaded().eye);
   result["pass"] = format == PictureFormat::exr ? "all" : a.pass;
-  if (!film.error.empty()) result["noise"] = render::rms_noise(film, scene.scene().exposure);
+  if (!film.error.empty()) result["noise"] = render::rms_noise(film, exposure);
   print_result(std::move(result), scene.loaded().notes, common);
   if (!common.quiet)
     print_message(fmt::format("{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
-                    noise_text(film, scene.scene().exposure)));
+                              noise_text(film, exposure)));
+  return kDone;
+}
+
+/// The share of white that --noise says: a number, or a fraction such as 1/255.
+double parse_noise(const std::string& text) {
+  double values[2] = {0, 1};
+  const char *at = text.data(), *end = at + text.size();
+  for (double& value : values) {
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || next == at) break;
+    at = next;
+    if (at == end || *at != '/' || &value == &values[1]) break;
+    ++at;
+  }
+  const double noise = values[0] / values[1];
+  if (at != end || !(noise >= 1e-4 && noise <= 1))
+    throw UsageError("--noise takes a share of white from 0.0001 to 1, such as 1/255; got " + text);
+  return noise;
+}
+
+int render_to_noise(const driver::PreparedScene& scene, const RenderArguments& a, PictureFormat format, const Common& common) {
+  constexpr int kMostSamples = 1024;
+  ProgressBar bar(!common.quiet && stderr_is_terminal());
+  const driver::NoiseTarget target{parse_noise(a.noise), a.samples > 0 ? a.samples : kMostSamples, a.exact};
+  nlohmann::ordered_json result = result_of(a, format, scene.loaded().eye);
+  double mean_samples = 0, unsettled = 1;
+  const bool replaces = !is_stream(a.compile.output);
+  const auto write = [&](const render::Film& film) { write_output(a.compile.output, bytes_of(film, a, format, scene.scene().exposure)); };
+  const render::Film film = driver::trace_to_noise(
+      scene, scene.loaded().eye, target, driver::parallel_executor(common.threads),
+      [&](const driver::FilmPass& pass) {
+        result["samples"] = pass.samples;
+        mean_samples = pass.mean_samples;
+        unsettled = pass.unsettled;
+        if (replaces) write(pass.film);
+      },
+      bar.progress());
+  if (!replaces) write(film);
+  bar.clear();
+  result.update({{"pass", format == PictureFormat::exr ? "all" : "color"},
+                 {"noise_target", target.noise},
+                 {"mean_samples", mean_samples},
+                 {"unsettled", unsettled}});
+  if (!film.error.empty()) result["noise"] = render::rms_noise(film, scene.scene().exposure);
+  const int most = result["samples"];
+  print_result(std::move(result), scene.loaded().notes, common);
+  if (!common.quiet)
+    print_message(fmt::format(
+        "{}: {}x{}, traced until {}: {:.1f} samples a pixel on average, at most {}{}\n", shown(a.compile.output), film.width, film.height,
+        unsettled == 0 ? fmt::format("no pixel is noisier than {:.2g}/255", 255 * target.noise)
+                       : fmt::format("{:.2g} % of the pixels are noisier than {:.2g}/255", 100 * unsettled, 255 * target.noise),
+        mean_samples, most, noise_text(film, scene.scene().exposure)));
   return kDone;
 }
 
@@ -148,7 +205,10 @@ int render(const RenderArguments& arguments, const Common& common) {
   const bool here = a.engine == "tracer";
   const PictureFormat format = picture_format_of(a.compile.output, here, fmt::format("pictures of {} have 8 bits", a.engine));
   if (format == PictureFormat::exr) a.pass = "color";  // it holds all passes, whichever is asked for
-  a.samples = samples_of(a);
+  const bool to_noise = here && !a.noise.empty();
+  if (to_noise && a.pass != "color") throw UsageError("--noise is of the picture; --pass " + a.pass + " has one sample a pixel");
+  if (to_noise) (void)parse_noise(a.noise);
+  else a.samples = samples_of(a);
   keep_standard_output_apart(a.compile.output, common);
   if (a.engine == "povray") (void)side_of(a.samples);
   check_outputs({a.compile.output});
@@ -160,9 +220,10 @@ int render(const RenderArguments& arguments, const Common& common) {
   const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;
   append(loaded->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *loaded));
   if (a.pass == "color") append(loaded->notes, driver::unlit_note(*loaded));
-  if (here) append(loaded->notes, few_lens_samples(*loaded, a.samples));
+  if (here) append(loaded->notes, few_lens_samples(*loaded, to_noise ? 1024 : a.samples));
   print(loaded->notes, common);
   const driver::PreparedScene scene(*loaded, prepare_options(a.compile));
+  if (to_noise) return render_to_noise(scene, a, format, common);
   return here ? render_here(scene, a, format, common) : render_elsewhere(scene, a, format, common);
 }
 

@@ -157,13 +157,11 @@ std::vector<std::array<double, 2>> sample_points(int samples) {
   return points;
 }
 
-Film draw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const Executor& executor,
-          const Progress& progress) {
-  Film film = make_film(eye.width, eye.height);
-  if (options.lighting && options.lighting->options.indirect_bounces > 0) film.error.assign(film.color.size(), 0);
+void redraw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const std::vector<bool>& wanted,
+            Film& film, const Executor& executor, const Progress& progress) {
   const std::vector<std::array<double, 2>> samples = sample_points(options.samples);
   const int columns = (eye.width + kTileSide - 1) / kTileSide, rows = (eye.height + kTileSide - 1) / kTileSide;
-  const std::uint64_t total = static_cast<std::uint64_t>(eye.width) * static_cast<std::uint64_t>(eye.height) * samples.size();
+  const std::uint64_t total = static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true)) * samples.size();
   std::atomic<std::uint64_t> done{0};
   const std::size_t tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   executor(tiles, [&](std::size_t k) {
@@ -173,11 +171,19 @@ Film draw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOp
     const int x1 = std::min(x0 + kTileSide, eye.width), y1 = std::min(y0 + kTileSide, eye.height);
     std::vector<Pixel> pixels;
     for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) pixels.push_back({x, y});
+      for (int x = x0; x < x1; ++x)
+        if (wanted[index_of({x, y}, film)]) pixels.push_back({x, y});
     draw_pixels(scene, eye, options, samples, pixels, film);
-    const std::uint64_t rays = static_cast<std::uint64_t>(x1 - x0) * static_cast<std::uint64_t>(y1 - y0) * samples.size();
+    const std::uint64_t rays = pixels.size() * samples.size();
     report(progress, "tracing", done.fetch_add(rays) + rays, total, "rays");
   });
+}
+
+Film draw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const Executor& executor,
+          const Progress& progress) {
+  Film film = make_film(eye.width, eye.height);
+  if (options.lighting && options.lighting->options.indirect_bounces > 0) film.error.assign(film.color.size(), 0);
+  redraw(scene, eye, options, std::vector<bool>(film.color.size(), true), film, executor, progress);
   return film;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <vector>
 
 #include "compiler/bake/baked_light.h"
 #include "compiler/bake/irradiance_cache.h"
@@ -31,6 +32,11 @@ struct DrawOptions {
 /// Makes: the same film, bit by bit, for any executor: samples are fixed points of the pixel, and pixels are independent.
 [[nodiscard]] Film draw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const Executor& executor,
                         const Progress& progress = {});
+
+/// Draws some pixels of a film again; what the others show stays. In: for each pixel, row by row, whether it is drawn.
+/// Makes: the same film, bit by bit, for any executor.
+void redraw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const std::vector<bool>& wanted,
+            Film& film, const Executor& executor, const Progress& progress = {});
 
 /// The geodesic from the eye through the point (x, y) of the picture, in pixels.
 [[nodiscard]] trace::Ray eye_ray(const place::Camera& eye, double x, double y);

@@ -52,6 +52,7 @@ TABLE = [
     ('--max-atlas', '8192', TRACED + SVG, TRACED + SVG),
     ('--pass', 'depth', POV + GLTF, POV + GLTF),
     ('--exact', None, POV + GLTF, PICTURES),
+    ('--noise', '20/255', POV + GLTF, POV + GLTF),
     ('--view', 'disk', SVG, SVG),
     ('--report', 'report.json', SVG, SVG),
     ('--nodes-per-copy', None, [POV[0]] + SVG, [POV[0]] + SVG),
@@ -59,7 +60,7 @@ TABLE = [
     ('--colour', 'length', POV + GLTF, POV + GLTF),
     ('--samples', '4', [], []),
 ]
-SEEN_IN_PICTURES = {'--pass', '--exact', '--atlas', '--samples'}
+SEEN_IN_PICTURES = {'--pass', '--exact', '--noise', '--atlas', '--samples'}
 # Neither what is made, nor where: how the program runs, what it prints, which command it is.
 ABOUT_RUNNING = {'--help', '--quiet', '--verbose', '--json', '--threads', '--max-memory', '--output', '--format', '--engine', '--plan', '--set', '--nodes-per-object'}
 VERIFY_ALONE = {'--blender', '--within', '--threshold', '--off-edge', '--difference', '--keep'}

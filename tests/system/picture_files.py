@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """A picture is what its name says, whoever draws it: its first bytes are those of its format, and the same scene gives the same bytes on another day."""
 import io
+import json
 import pathlib
 import shutil
+import signal
+import subprocess
 import time
 
 import numpy as np
@@ -92,4 +95,22 @@ with folder() as name:
         second = (where / 'second.png').read_bytes()
         check(set(chunks(second)) <= plain, f'{what}: its picture says nothing but the picture ({" ".join(chunks(second))})')
         check(second == first[what], f'{what}: the same scene gives the same bytes a second later')
+
+    # A picture that is refined can be stopped at any time: what has been written last is whole.
+    slow = where / 'slow.yaml'
+    slow.write_text(SCENE.replace('max_bounces: 1', 'max_bounces: 12').replace('[64, 48]', '[320, 240]'))
+    going = subprocess.Popen([ORBC, 'trace', slow, '-o', where / 'refined.png', '--noise', '0.0001', '--samples', '65536'], stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 60
+    while not (where / 'refined.png').exists() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    going.send_signal(signal.SIGINT)
+    message = going.communicate(timeout=60)[1].decode()
+    stopped = (where / 'refined.png').exists() and picture(where / 'refined.png')
+    check(going.returncode == 130 and stopped is not False and stopped.shape[:2] == (240, 320), f'a stopped picture is whole: {going.returncode} {message}')
+    check(not [file for file in where.iterdir() if file.name not in ('refined.png', 'slow.yaml', 'scene.yaml') and 'refined' in file.name], 'and nothing else is left')
+    told = json.loads(run([ORBC, 'trace', scene, '-o', where / 'smooth.png', '--noise', '8/255', '--json']).stdout)
+    check(told['unsettled'] < 0.05 and told['mean_samples'] < told['samples'] and abs(told['noise_target'] - 8 / 255) < 1e-12, f'--noise tells what it took {told}')
+    for words in (['--noise', '0'], ['--noise', '2'], ['--noise', '1/0'], ['--noise', 'little'], ['--noise', '1/255/2'], ['--noise', '1/255', '--pass', 'depth']):
+        done = run([ORBC, 'trace', scene, '-o', where / 'never.png', *words])
+        check(done.returncode == 2 and not (where / 'never.png').exists(), f'{" ".join(words)} is refused: {done.stderr.decode().strip()}')
 finish()

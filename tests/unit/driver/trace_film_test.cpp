@@ -93,3 +93,42 @@ TEST_CASE("a stereo panorama of a flat room does not depend on the author's unit
   CHECK(drawn(room("1", "0.25", "")) == drawn(room("4", "1", "")));
   CHECK(drawn(room("1", "0.25", "")) != drawn(room("1", "0.25", ", eye_separation: 0.125")));
 }
+
+TEST_CASE("a picture to a noise target is off from one of many samples by that at most, where few samples are not", "[driver]") {
+  driver::LoadedScene scene = film_room("*22222");
+  const driver::PreparedScene prepared(scene);
+  const double exposure = scene.scene.exposure;
+  std::vector<int> passes;
+  double mean_samples = 0, unsettled = 1;
+  const auto note_pass = [&](const driver::FilmPass& pass) {
+    passes.push_back(pass.samples);
+    mean_samples = pass.mean_samples;
+    unsettled = pass.unsettled;
+    CHECK(pass.film.color.size() == 96U * 72U);
+  };
+  const auto to_noise = [&](double noise, int most) {
+    passes.clear();
+    return render::to_image(driver::trace_to_noise(prepared, scene.eye, {noise, most}, serial_executor(), note_pass), exposure);
+  };
+  const image::Image many = render::to_image(driver::trace_film(prepared, scene.eye, {.samples = 1024}, serial_executor()), exposure);
+  const auto beyond = [&](const image::Image& image, int steps) {
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+      int worst = 0;
+      for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(int{image.rgba[i + c]} - int{many.rgba[i + c]}));
+      count += worst > steps;
+    }
+    return count / (96.0 * 72.0);
+  };
+  const image::Image smooth = to_noise(6.0 / 255, 256);
+  CHECK(passes == std::vector<int>{1, 4, 16, 64, 256});
+  CHECK(beyond(smooth, 6) < 0.01);
+  CHECK(mean_samples < 200);  // most of it was not drawn again and again
+  CHECK(beyond(render::to_image(driver::trace_film(prepared, scene.eye, {.samples = 4}, serial_executor()), exposure), 6) > 0.1);
+  // The least that is allowed is one pass, and a loose target is met early.
+  (void)to_noise(1.0 / 255, 1);
+  CHECK(passes == std::vector<int>{1});
+  (void)to_noise(1, 256);
+  CHECK(passes == std::vector<int>{1, 4});
+  CHECK(unsettled == 0);
+}
