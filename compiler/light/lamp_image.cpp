@@ -1,7 +1,8 @@
 // The unfolding of light: a path from a surface point over mirrors to the lamp is a geodesic to the lamp's image. Walls without mirrors are
-// no letters of words, for the reason given at cover::visit_copies. Most images do not matter: in H² their number grows like e^L with the
-// length L of the path, and the light of each falls like e^-L. So copies are visited one by one, and only images that are visible somewhere
-// in the room are kept.
+// no letters of words, for the reason given at cover::visit_copies. Most images hardly matter by themselves: in H² their number grows like
+// e^L with the length L of the path, and the light of each falls like e^-L. So copies are visited one by one, twice: first to find out how
+// bright the room is, then to keep the images that are visible somewhere in it whole, and of the faint others, which are evaluated as a
+// sum, no more than that needs.
 #include "compiler/light/lamp_image.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -25,6 +27,8 @@ namespace {
 using geometry::Isometry;
 using geometry::Position;
 using geometry::Space;
+
+constexpr double kFaintShare = 4;  // images are faint below this, times ImageOptions::faint_below, of the light of all
 
 /// An image of the floor: a product of reflections in walls.
 struct HorizontalImage {
@@ -143,15 +147,26 @@ double max_throughput(const ImageContext& context, const HorizontalImage& horizo
   return math::pow(context.mirrors.max_throughput, horizontal.bounces + vertical.bounces);
 }
 
-// Whether some point of the room may get light of `cull_below`. On S² light rises again with distance, and images are few.
-bool may_be_visible(const ImageContext& context, const PlacedLamp& lamp, const HorizontalImage& horizontal, const VerticalImage& vertical) {
+/// The upper bound of what an image adds to any point of the room, white = 1. Infinite on S², where light rises again with distance and
+/// images are few.
+double most_in_room(const ImageContext& context, const PlacedLamp& lamp, const HorizontalImage& horizontal, const VerticalImage& vertical) {
   const Space space = context.interior.polygon.space;
-  if (context.options.cull_below <= 0 || space == Space::spherical) return true;
+  if (space == Space::spherical) return std::numeric_limits<double>::infinity();
   const Position centre = image_of(horizontal, vertical, lamp.centre);
   const double arc = std::max(0.0, geometry::distance(space, {}, centre.floor) - context.interior.polygon.circumradius);
   const double rise = std::max({0.0, -centre.z, centre.z - context.interior.height});
   return max_contribution(space, lamp, max_throughput(context, horizontal, vertical), context.options.exposure, math::hypot(arc, rise),
-                          arc) >= context.options.cull_below;
+                          arc);
+}
+
+/// What an image adds in the middle of the room at normal incidence, white = 1: a measure of how bright the room is.
+double at_middle_of_room(const ImageContext& context, const PlacedLamp& lamp, const HorizontalImage& horizontal,
+                         const VerticalImage& vertical) {
+  const Space space = context.interior.polygon.space;
+  const Position centre = image_of(horizontal, vertical, lamp.centre);
+  const double arc = geometry::distance(space, {}, centre.floor), height = context.interior.height;
+  const double length = std::max(math::hypot(arc, centre.z - height / 2), height / 2);
+  return max_contribution(space, lamp, max_throughput(context, horizontal, vertical), context.options.exposure, length, arc);
 }
 
 LampImage lamp_image(const ImageContext& context, int l, const HorizontalImage& horizontal, const VerticalImage& vertical) {
@@ -170,26 +185,89 @@ LampImage lamp_image(const ImageContext& context, int l, const HorizontalImage& 
   return image;
 }
 
-/// The images over at most `bounces` mirrors; nothing when they are too many.
-std::optional<std::vector<LampImage>> images_up_to(const ImageContext& context, int bounces) {
+/// Called with every image of every lamp; false stops the enumeration.
+using ImageVisitor = std::function<bool(std::size_t lamp, const HorizontalImage&, const VerticalImage&)>;
+
+void visit_images(const ImageContext& context, int bounces, const ImageVisitor& visit_image) {
   const std::vector<VerticalImage> verticals = vertical_images(context.mirrors, context.interior.height, bounces);
-  std::vector<LampImage> images;
-  std::uint64_t visited = 0;
-  bool complete = true;
   const auto visit = [&](const HorizontalImage& horizontal) {
     for (std::size_t l = 0; l < context.lamps.size(); ++l)
-      for (const VerticalImage& vertical : verticals) {
-        if (horizontal.bounces + vertical.bounces > bounces) continue;
-        if (++visited > kMaxVisitedImages || images.size() > kMaxImages) return complete = false;
-        if (may_be_visible(context, context.lamps[l], horizontal, vertical))
-          images.push_back(lamp_image(context, static_cast<int>(l), horizontal, vertical));
-      }
+      for (const VerticalImage& vertical : verticals)
+        if (horizontal.bounces + vertical.bounces <= bounces && !visit_image(l, horizontal, vertical)) return false;
     return true;
   };
   if (notation::is_orbifold(context.interior.polygon.orbifold)) visit_group(context.interior, context.mirrors, bounces, visit);
   else visit_words(context.interior, context.mirrors, bounces, {geometry::identity(context.interior.polygon.space), 0, 0, {}, true}, visit);
-  if (!complete || images.size() > kMaxImages) return std::nullopt;
-  return images;
+}
+
+/// What is known of the images before any is kept.
+struct ImageSurvey {
+  double faint_below = 0;     ///< as in LampImages
+  std::vector<float> bounds;  ///< of the faint images, in their order
+};
+
+/// Nothing when there are too many images.
+std::optional<ImageSurvey> survey_images(const ImageContext& context, int bounces) {
+  const double most = context.options.faint_below;
+  std::uint64_t visited = 0;
+  double all = 0;
+  std::vector<float> bounds;
+  visit_images(context, bounces, [&](std::size_t l, const HorizontalImage& horizontal, const VerticalImage& vertical) {
+    if (++visited > kMaxVisitedImages) return false;
+    all += at_middle_of_room(context, context.lamps[l], horizontal, vertical);
+    if (most > 0) bounds.push_back(static_cast<float>(most_in_room(context, context.lamps[l], horizontal, vertical)));
+    return true;
+  });
+  if (visited > kMaxVisitedImages) return std::nullopt;
+  ImageSurvey survey{std::min(most, kFaintShare * most * all), std::move(bounds)};
+  const auto is_faint = [&](float bound) { return static_cast<double>(bound) < survey.faint_below; };
+  if (visited - static_cast<std::uint64_t>(std::count_if(survey.bounds.begin(), survey.bounds.end(), is_faint)) > kMaxImages)
+    return std::nullopt;
+  survey.bounds.erase(std::remove_if(survey.bounds.begin(), survey.bounds.end(), [&](float b) { return !is_faint(b); }),
+                      survey.bounds.end());
+  return survey;
+}
+
+/// The factor c for which the probabilities min(1, c·bound) have the sum `count`. In: more bounds than that.
+double probability_factor(const std::vector<float>& bounds, double count) {
+  double sum = 0;
+  for (const float b : bounds) sum += static_cast<double>(b);
+  double factor = sum > 0 ? count / sum : 0;
+  for (int i = 0; i < 20; ++i) {  // bounds are so even that a few rounds suffice
+    double certain = 0, rest = 0;
+    for (const float b : bounds) factor* static_cast<double>(b) >= 1 ? certain += 1 : rest += static_cast<double>(b);
+    if (rest <= 0) break;
+    factor = std::max(0.0, count - certain) / rest;
+  }
+  return factor;
+}
+
+/// The images over at most `bounces` mirrors; nothing when they are too many.
+std::optional<LampImages> images_up_to(const ImageContext& context, int bounces) {
+  const auto survey = survey_images(context, bounces);
+  if (!survey) return std::nullopt;
+  LampImages all{{}, {}, survey->faint_below};
+  const bool draws = survey->bounds.size() > kMaxFaintImages;
+  const double factor = draws ? probability_factor(survey->bounds, static_cast<double>(kMaxFaintImages)) : 0;
+  double drawn = 0.5;
+  visit_images(context, bounces, [&](std::size_t l, const HorizontalImage& horizontal, const VerticalImage& vertical) {
+    const double bound = static_cast<double>(static_cast<float>(most_in_room(context, context.lamps[l], horizontal, vertical)));
+    if (!(bound < survey->faint_below)) {
+      all.images.push_back(lamp_image(context, static_cast<int>(l), horizontal, vertical));
+      return true;
+    }
+    const double probability = draws ? std::min(1.0, factor * bound) : 1, before = std::floor(drawn);
+    drawn += probability;
+    if (std::floor(drawn) <= before) return true;
+    LampImage image = lamp_image(context, static_cast<int>(l), horizontal, vertical);
+    image.samples.resize(1);
+    image.axes.resize(std::min<std::size_t>(image.axes.size(), 1));
+    image.hot_spots.clear();
+    image.multiplicity = 1 / probability;
+    all.faint.push_back(std::move(image));
+    return true;
+  });
+  return all;
 }
 
 }  // namespace
@@ -199,8 +277,7 @@ double max_contribution(Space space, const PlacedLamp& lamp, double throughput, 
          falloff(lamp.falloff, space, std::max(length - lamp.extent, lamp.radius), arc, lamp.radius);
 }
 
-Result<std::vector<LampImage>> lamp_images(const std::vector<PlacedLamp>& lamps, const place::Interior& interior,
-                                           const ImageOptions& options) {
+Result<LampImages> lamp_images(const std::vector<PlacedLamp>& lamps, const place::Interior& interior, const ImageOptions& options) {
   const ImageContext context{lamps, interior, options, mirrored_surfaces(interior)};
   if (auto images = images_up_to(context, options.bounces)) return std::move(*images);
   int fits = -1;

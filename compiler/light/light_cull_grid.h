@@ -18,7 +18,7 @@ struct LightCullGrid {
 };
 [[nodiscard]] LightCullGrid make_light_cull_grid(const LightingContext& lighting, const Executor& executor);
 
-/// Indices of the images that may add light of LightOptions::cull_below, or a highlight of it, at a position in the room.
+/// Indices of the images, ascending, that may add light of LightingContext::faint_below, or a highlight of it, at a position in the room.
 [[nodiscard]] const std::vector<std::uint32_t>& images_at(const LightingContext& lighting, const geometry::Position& at);
 
 }  // namespace orbc::light

@@ -24,6 +24,8 @@ using scene::Color;
 constexpr int kMaxPenumbraProbes = 32;         // samples that decide whether a point is in a penumbra
 constexpr double kStepsPerProbe = 4;           // LightOptions::max_step: what may pass unseen between two of these samples
 constexpr double kMaxStratumError = 8;         // LightOptions::max_step: error of a single stratum, for each image
+constexpr double kStepsPerFaintRay = 0.5;      // LightOptions::max_step: of the sum of faint images, decided by one shadow ray
+constexpr int kMinFaintRays = 8, kMaxFaintRays = 64;
 constexpr double kMaxQuadratureExtent = 0.25;  // extent of a lamp / distance: the third order of the quadrature is then below 1.5 %
 
 /// An estimate of what an image adds at a point; 0 only where it surely adds nothing.
@@ -34,7 +36,7 @@ double importance(const LightingContext& lighting, const LampImage& image, const
   const double max_tilt = 2 * lamp.extent / std::max(centre.length, 1e-9);
   const double cosine = centre.valid ? trace::inner(space, centre.direction, point.normal) + max_tilt : 1;
   if (cosine <= 0 && max_tilt < 1) return 0;
-  return max_channel(lamp.power) * image.max_throughput * std::clamp(cosine, 0.05, 1.0) *
+  return image.multiplicity * max_channel(lamp.power) * image.max_throughput * std::clamp(cosine, 0.05, 1.0) *
          falloff(lamp.falloff, space, std::max(centre.length, lamp.radius), centre.arc, lamp.radius);
 }
 
@@ -101,19 +103,87 @@ double open_irradiance(const LightingContext& lighting, const LampImage& image, 
   return light / count;
 }
 
+/// The faint images of a point.
+struct FaintLight {
+  struct Part {
+    const LampImage* image = nullptr;
+    Connection centre;
+    double light = 0;  ///< irradiance if nothing blocked it, at the greatest throughput, in the lamp's strongest channel
+  };
+  std::vector<Part> parts;
+  double sum = 0;  ///< of their light
+
+  void add(const LightingContext& lighting, const LampImage& image, const surface::ShadingPoint& point, const Connection& centre) {
+    const double cosine = centre.valid ? trace::inner(lighting.scene.prism.space, centre.direction, point.normal) : 0;
+    if (cosine <= 0) return;
+    const double light = image.multiplicity * image.max_throughput * max_channel(lamp_of_image(lighting, image).power) * cosine *
+                         unoccluded_irradiance(lighting, image, 0, point, centre);
+    if (light <= 0) return;
+    parts.push_back({&image, centre, light});
+    sum += light;
+  }
+};
+
+/// The upper bound of what an image adds at a point, and whether the image is faint there.
+struct PointBound {
+  double bound = 0;
+  bool is_faint = false, below_horizon = false;
+};
+PointBound bound_at(const LightingContext& lighting, const LampImage& image, const surface::ShadingPoint& point, const Connection& centre) {
+  PointBound at{image_bound(lighting, image, centre.length, centre.arc), false, false};
+  const double extent = lamp_of_image(lighting, image).extent;
+  if (centre.valid) {  // the directions to samples differ from that to the centre by at most 2·extent / length
+    const double cosine = trace::inner(lighting.scene.prism.space, centre.direction, point.normal) + 2 * extent / centre.length;
+    at.below_horizon = cosine <= 0 && centre.length > 2 * extent;
+    if (cosine < 1 && image.sheet == 0) at.bound *= std::max(cosine, 0.0);
+  }
+  at.is_faint = at.bound < lighting.faint_below;
+  return at;
+}
+
+/// The light of faint images: their sum, times the mean transmittance of systematically sampled ones (Madow, Annals of Math. Statistics
+/// 20, 1949). Strata of a pixel share the shadow rays.
+Color faint_irradiance(const LightingContext& lighting, const FaintLight& faint, const surface::ShadingPoint& point,
+                       const SampleStratum& stratum) {
+  if (faint.sum <= 0) return {};
+  const double shown = lighting.exposure / std::numbers::pi * faint.sum / std::max(lighting.options.max_step, 1e-9);
+  const int wanted = std::clamp(static_cast<int>(std::ceil(std::min(shown / kStepsPerFaintRay, 1e6))), kMinFaintRays, kMaxFaintRays);
+  const auto arriving = [&](const FaintLight::Part& part) {
+    const LampImage& image = *part.image;
+    const PlacedLamp& lamp = lamp_of_image(lighting, image);
+    const Color throughput = shadow_transmittance(lighting, image, 0, point, part.centre);
+    return (1 / (image.max_throughput * max_channel(lamp.power))) * (lamp.power * throughput);
+  };
+  Color sum;
+  if (faint.parts.size() <= static_cast<std::size_t>(wanted) && stratum.count == 1) {
+    for (const FaintLight::Part& part : faint.parts) sum = sum + part.light * arriving(part);
+    return sum;
+  }
+  const int rays = std::max(1, (wanted + stratum.count - 1) / stratum.count);
+  const double step = faint.sum / rays;
+  double next = step * (stratum.index + 0.5) / stratum.count, before = 0;
+  for (const FaintLight::Part& part : faint.parts) {
+    const double end = before + part.light;
+    int hits = 0;
+    for (; next < end; next += step) ++hits;
+    if (hits > 0) sum = sum + (hits * step) * arriving(part);
+    before = end;
+  }
+  return sum;
+}
+
+/// In: where the image goes if it is faint.
 ImageLight image_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
-                            const SampleStratum& stratum) {
+                            const SampleStratum& stratum, FaintLight& faint) {
   const LampImage& image = lighting.lamps->images[number];
   const Space space = lighting.scene.prism.space;
   const PlacedLamp& lamp = lamp_of_image(lighting, image);
   const Connection centre = connect(space, point.ray_origin, image.samples[0], image.sheet);
-  double bound = image_bound(lighting, image, centre.length, centre.arc);
-  if (bound < lighting.options.cull_below) return {};
-  if (centre.valid) {  // the directions to samples differ from that to the centre by at most 2·extent / length
-    const double cosine = trace::inner(space, centre.direction, point.normal) + 2 * lamp.extent / centre.length;
-    if (cosine <= 0 && centre.length > 2 * lamp.extent) return {};
-    if (cosine < 1 && image.sheet == 0) bound *= std::max(cosine, 0.0);
-    if (bound < lighting.options.cull_below) return {};
+  const auto [bound, is_faint, below_horizon] = bound_at(lighting, image, point, centre);
+  if (below_horizon) return {};
+  if (is_faint) {
+    faint.add(lighting, image, point, centre);
+    return {};
   }
   const double steps = bound / lighting.options.max_step;
   const SampleBudget budget = sample_budget(steps, static_cast<int>(image.samples.size()) - 1, stratum, number);
@@ -150,7 +220,7 @@ ImageLight image_irradiance(const LightingContext& lighting, std::uint32_t numbe
 /// The irradiance from an image that is expected to be open or blocked. Nothing if a part of it is below the horizon, or if a shadow ray to
 /// its centre tells otherwise. In: whether to trace that ray.
 std::optional<ImageLight> expected_irradiance(const LightingContext& lighting, std::uint32_t number, const surface::ShadingPoint& point,
-                                              const ImageVisibility& expected, bool check) {
+                                              const ImageVisibility& expected, bool check, FaintLight& faint) {
   if (expected.kind != Visibility::open && expected.kind != Visibility::blocked) return std::nullopt;
   const LampImage& image = lighting.lamps->images[number];
   const Space space = lighting.scene.prism.space;
@@ -159,7 +229,10 @@ std::optional<ImageLight> expected_irradiance(const LightingContext& lighting, s
   if (!centre.valid || centre.length <= 2 * lamp.extent) return std::nullopt;
   if (trace::inner(space, centre.direction, point.normal) <= 2 * lamp.extent / centre.length) return std::nullopt;
   const double bound = image_bound(lighting, image, centre.length, centre.arc);
-  if (bound < lighting.options.cull_below) return ImageLight{};
+  if (bound_at(lighting, image, point, centre).is_faint) {
+    faint.add(lighting, image, point, centre);
+    return ImageLight{};
+  }
   Color throughput{static_cast<double>(expected.throughput[0]), static_cast<double>(expected.throughput[1]),
                    static_cast<double>(expected.throughput[2])};
   if (check) throughput = shadow_transmittance(lighting, image, 0, point, centre);
@@ -169,12 +242,32 @@ std::optional<ImageLight> expected_irradiance(const LightingContext& lighting, s
   return ImageLight{open_irradiance(lighting, image, point, centre.length, bound) * (lamp.power * throughput), seen};
 }
 
+/// Adds the images that are not in a list to the faint ones. In: ascending indices.
+void add_unlisted(const LightingContext& lighting, const std::vector<std::uint32_t>& listed, const surface::ShadingPoint& point,
+                  FaintLight& faint) {
+  const Space space = lighting.scene.prism.space;
+  const auto add = [&](const LampImage& image) {
+    faint.add(lighting, image, point, connect(space, point.ray_origin, image.samples[0], image.sheet));
+  };
+  const std::vector<LampImage>& images = lighting.lamps->images;
+  if (listed.size() < images.size()) {
+    std::size_t next = 0;
+    for (std::uint32_t i = 0; i < images.size(); ++i) {
+      if (next < listed.size() && listed[next] == i) ++next;
+      else add(images[i]);
+    }
+  }
+  for (const LampImage& image : lighting.lamps->faint) add(image);
+}
+
 Result<LampSet> with_images(const scene::Scene& scene, const place::Interior& interior, PlacedLamps placed, const LightOptions& options) {
-  LampSet set{std::move(placed.lamps), {}, std::move(placed.warnings)};
+  LampSet set{std::move(placed.lamps), {}, std::move(placed.warnings), {}, 1};
   for (PlacedLamp& lamp : set.lamps) lamp.hot_spots = find_hot_spots(lamp, interior);
   auto images = lamp_images(set.lamps, interior, {options.bounces, scene.exposure, options.cull_below});
   if (!images) return located(images.error(), scene.bake.mirror_bounces_span);
-  set.images = std::move(images).value();
+  set.images = std::move(images->images);
+  set.faint = std::move(images->faint);
+  if (options.cull_below > 0) set.faint_share = images->faint_below / options.cull_below;
   return set;
 }
 
@@ -219,6 +312,7 @@ LightingContext prepare_light(const scene::Scene& scene, const place::Interior& 
   }
   lighting.ambient = scene.ambient;
   lighting.options = options;
+  lighting.faint_below = options.cull_below * lamps->faint_share;
   lighting.lamps = std::move(lamps);
   lighting.normals.resize(interior.parts.size());
   executor(interior.parts.size(), [&](std::size_t i) { lighting.normals[i] = surface::part_normals(interior, interior.parts[i]); });
@@ -238,15 +332,11 @@ Result<LightingContext> prepare_light(const scene::Scene& scene, const place::In
 }
 
 Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const SampleStratum& stratum) {
-  Color sum;
-  for (const std::uint32_t i : images_at(lighting, point.at)) sum = sum + image_irradiance(lighting, i, point, stratum).irradiance;
-  return sum;
+  return irradiance(lighting, point, ExpectedImages{images_at(lighting, point.at), {}}, stratum).irradiance;
 }
 
 Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const std::vector<std::uint32_t>& images) {
-  Color sum;
-  for (const std::uint32_t i : images) sum = sum + image_irradiance(lighting, i, point, {}).irradiance;
-  return sum;
+  return irradiance(lighting, point, ExpectedImages{images, {}}, {}).irradiance;
 }
 
 VisibleIrradiance irradiance(const LightingContext& lighting, const surface::ShadingPoint& point, const ExpectedImages& expected,
@@ -254,23 +344,26 @@ VisibleIrradiance irradiance(const LightingContext& lighting, const surface::Sha
   constexpr std::uint32_t kCheckOneIn = 4;
   const std::size_t count = expected.images.size();
   std::vector<std::optional<ImageLight>> found(count);
+  FaintLight faint;
   bool check_all = false;
   if (!expected.visibility.empty()) {
     for (std::size_t k = (kCheckOneIn - expected.phase % kCheckOneIn) % kCheckOneIn; k < count; k += kCheckOneIn) {
       const ImageVisibility& kind = expected.visibility[k];
-      found[k] = expected_irradiance(lighting, expected.images[k], point, kind, true);
+      found[k] = expected_irradiance(lighting, expected.images[k], point, kind, true, faint);
       check_all = check_all || (!found[k] && (kind.kind == Visibility::open || kind.kind == Visibility::blocked));
     }
     for (std::size_t k = 0; k < count; ++k)
-      if (!found[k]) found[k] = expected_irradiance(lighting, expected.images[k], point, expected.visibility[k], check_all);
+      if (!found[k]) found[k] = expected_irradiance(lighting, expected.images[k], point, expected.visibility[k], check_all, faint);
   }
   VisibleIrradiance sum;
   sum.visibility.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const ImageLight light = found[k] ? *found[k] : image_irradiance(lighting, expected.images[k], point, stratum);
+    const ImageLight light = found[k] ? *found[k] : image_irradiance(lighting, expected.images[k], point, stratum, faint);
     sum.irradiance = sum.irradiance + light.irradiance;
     sum.visibility.push_back(light.visibility);
   }
+  add_unlisted(lighting, expected.images, point, faint);
+  sum.irradiance = sum.irradiance + faint_irradiance(lighting, faint, point, stratum);
   return sum;
 }
 
@@ -281,8 +374,8 @@ std::vector<std::uint32_t> images_within(const LightingContext& lighting, const 
   for (std::uint32_t i = 0; i < lighting.lamps->images.size(); ++i) {
     const LampImage& image = lighting.lamps->images[i];
     const Connection connection = connect(lighting.scene.prism.space, centre, image.samples[0], image.sheet);
-    if (!bounded || image_bound(lighting, image, connection.length - radius, std::max(connection.arc - radius, 0.0)) >=
-                        share * lighting.options.cull_below)
+    if (!bounded ||
+        image_bound(lighting, image, connection.length - radius, std::max(connection.arc - radius, 0.0)) >= share * lighting.faint_below)
       within.push_back(i);
   }
   return within;
@@ -294,10 +387,9 @@ Color estimate_irradiance(const LightingContext& lighting, const surface::Shadin
   // again (Chao, A general purpose unequal probability sampling plan, 1982).
   double total = 0, chosen_importance = 0, left = u[0];
   const LampImage* chosen = nullptr;
-  for (const std::uint32_t i : images_at(lighting, point.at)) {
-    const LampImage& image = lighting.lamps->images[i];
+  const auto consider = [&](const LampImage& image) {
     const double own = importance(lighting, image, point);
-    if (own <= 0) continue;
+    if (own <= 0) return;
     total += own;
     const double probability = own / total;
     if (left < probability) {
@@ -307,7 +399,9 @@ Color estimate_irradiance(const LightingContext& lighting, const surface::Shadin
     } else {
       left = (left - probability) / (1 - probability);
     }
-  }
+  };
+  for (const LampImage& image : lighting.lamps->images) consider(image);
+  for (const LampImage& image : lighting.lamps->faint) consider(image);
   if (!chosen) return {};
   const std::size_t count = chosen->samples.size() - 1;
   const std::size_t sample = count == 0 ? 0 : 1 + std::min(count - 1, static_cast<std::size_t>(u[1] * static_cast<double>(count)));
@@ -318,7 +412,7 @@ Color estimate_irradiance(const LightingContext& lighting, const surface::Shadin
   const double light = cosine * unoccluded_irradiance(lighting, *chosen, sample, point, connection);
   if (light <= 0) return {};
   const Color throughput = shadow_transmittance(lighting, *chosen, sample, point, connection);
-  return (light * total / chosen_importance) * (lamp_of_image(lighting, *chosen).power * throughput);
+  return (chosen->multiplicity * light * total / chosen_importance) * (lamp_of_image(lighting, *chosen).power * throughput);
 }
 
 Color outgoing_radiance(const LightingContext& lighting, const scene::Material& material, const Color& albedo, const Color& e) {

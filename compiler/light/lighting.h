@@ -20,7 +20,7 @@ struct LightOptions {
   double path_min_weight = 0;      ///< and the throughput of these mirrors below which a path is cut off
   scene::Color background;         ///< radiance where a path is cut off
   std::uint64_t seed = 1;          ///< of random numbers, for pictures that need them
-  double cull_below = 1.0 / 1000;  ///< white = 1 in the picture: images that could add less to a white surface are left out
+  double cull_below = 1.0 / 1000;  ///< white = 1: images that could add less to a white surface are faint; their highlights are left out
 };
 
 /// The options that a scene asks for.
@@ -30,7 +30,9 @@ struct LightOptions {
 struct LampSet {
   std::vector<PlacedLamp> lamps;
   std::vector<LampImage> images;
-  Diagnostics warnings;  ///< those of place_lamps
+  Diagnostics warnings;          ///< those of place_lamps
+  std::vector<LampImage> faint;  ///< images, as in LampImages
+  double faint_share = 1;        ///< LampImages::faint_below / LightOptions::cull_below: below 1 in dim rooms
 };
 /// Places the lamps of a scene and finds their images. In: the room without lamp bodies; the options that prepare_light gets.
 /// Diagnostics: those of place_lamps, lamps_inside_objects and lamp_images.
@@ -42,6 +44,7 @@ struct LightingContext {
   scene::Color ambient;
   double exposure = 1;
   LightOptions options;
+  double faint_below = 0;  ///< white = 1: where an image could add less, it is part of a sum (irradiance); at most options.cull_below
   std::shared_ptr<const LampSet> lamps = std::make_shared<const LampSet>();
   LightCullGrid cull_grid;                                ///< which images matter where
   std::vector<surface::PartNormals> normals;              ///< per part of the room
@@ -70,8 +73,10 @@ struct SampleStratum {
 
 /// The irradiance at a surface point from all lamps, directly and over mirrors.
 /// Units:  a lamp of power Φ gives Φ/(4πr²) at distance r in E², at normal incidence. Ambient light is not part of it.
-/// Error:  lamps with an extent have at most 128 samples; images below `cull_below` are left out. A single stratum is off by up to 8 steps
-///         for each image.
+/// Makes:  images that are faint at the point are summed without shadows, and a few shadow rays, drawn in proportion to their light, tell
+///         how much of the sum arrives. No image is left out.
+/// Error:  lamps with an extent have at most 128 samples; of the faint sum one shadow ray decides at most half a step (LightOptions::
+///         max_step), and at most an eighth of the sum. A single stratum is off by up to 8 steps for each image.
 [[nodiscard]] scene::Color irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
                                       const SampleStratum& stratum = {});
 /// The same from some of the images.
@@ -103,7 +108,8 @@ struct ExpectedImages {
 /// Error: borders of shadows that no check meets are missed.
 [[nodiscard]] VisibleIrradiance irradiance(const LightingContext& lighting, const surface::ShadingPoint& point,
                                            const ExpectedImages& expected, const SampleStratum& stratum = {});
-/// Indices of the images that may matter at points within `radius` of a position. In: `share` of LightOptions::cull_below that matters.
+/// Indices of the images that may matter at points within `radius` of a position. In: `share` of LightingContext::faint_below that matters.
+/// Makes: ascending indices.
 [[nodiscard]] std::vector<std::uint32_t> images_within(const LightingContext& lighting, const geometry::Position& centre, double radius,
                                                        double share = 1);
 

@@ -37,7 +37,7 @@ Hung hung(const char* notation, int lamps) {
 
 }  // namespace
 
-TEST_CASE("images that give too little light are left out, and no point of the room misses them", "[light]") {
+TEST_CASE("however little light images give, none is left out", "[light]") {
   for (const char* notation : {"*22222", "*2222", "*2222222"}) {
     CAPTURE(notation);
     const Hung h = hung(notation, 1);
@@ -45,6 +45,8 @@ TEST_CASE("images that give too little light are left out, and no point of the r
     options.bounces = 5;
     light::LightingContext lighting = light::prepare_light(h.scene, h.room, options).value();
     const std::size_t kept = lighting.lamps->images.size();
+    double faint = 0;
+    for (const light::LampImage& image : lighting.lamps->faint) faint += image.multiplicity;
     const auto irradiance = [&](double r, double z) {
       const geometry::Point p = geometry::point_along(h.room.polygon.space, {}, geometry::Tangent(0, 0.6, 0.8), r);
       return light::irradiance(lighting, {{p, z}, {{0, 0, 0}, z > 0 ? -1.0 : 1.0}, {p, z}, -1, false}).r;
@@ -52,14 +54,16 @@ TEST_CASE("images that give too little light are left out, and no point of the r
     const double reach = 0.9 * h.room.polygon.inradius;
     const double centre = irradiance(0, 0), rim = irradiance(reach, 0), above = irradiance(reach, h.room.height);
     light::LampSet all = *lighting.lamps;
-    all.images = light::lamp_images(all.lamps, h.room, {5, 1, 0}).value();
+    all.faint.clear();
+    all.images = light::lamp_images(all.lamps, h.room, {5, 1, 0}).value().images;
     lighting.lamps = std::make_shared<const light::LampSet>(std::move(all));
     lighting.cull_grid = {0, 0, 0, 0, {std::vector<std::uint32_t>(lighting.lamps->images.size())}};
     for (std::uint32_t i = 0; i < lighting.lamps->images.size(); ++i) lighting.cull_grid.images[0][i] = i;
     CHECK(kept < lighting.lamps->images.size());
-    CHECK(irradiance(0, 0) == Approx(centre).epsilon(1e-12));
-    CHECK(irradiance(reach, 0) == Approx(rim).epsilon(1e-12));
-    CHECK(irradiance(reach, h.room.height) == Approx(above).epsilon(1e-12));
+    CHECK(static_cast<double>(kept) + faint == Approx(static_cast<double>(lighting.lamps->images.size())).epsilon(0.1));
+    CHECK(irradiance(0, 0) == Approx(centre).epsilon(1e-4));
+    CHECK(irradiance(reach, 0) == Approx(rim).epsilon(1e-4));
+    CHECK(irradiance(reach, h.room.height) == Approx(above).epsilon(1e-4));
   }
 }
 

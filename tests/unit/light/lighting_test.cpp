@@ -146,7 +146,7 @@ TEST_CASE("rooms that are no orbifolds get each image only through its own mirro
   place::Interior other = by_words.interior;
   other.polygon.orbifold.corners[0] = Rational(5, 2);  // only what decides how images are listed
   light::LampSet set = *by_words.lighting.lamps;
-  set.images = light::lamp_images(set.lamps, other).value();
+  set.images = light::lamp_images(set.lamps, other).value().images;
   by_words.lighting.lamps = std::make_shared<const light::LampSet>(std::move(set));
   by_words.lighting.cull_grid = light::make_light_cull_grid(by_words.lighting, serial_executor());
   CHECK(by_words.lighting.lamps->images.size() == 1 + 4 + 12);
