@@ -296,11 +296,8 @@ def disks(where):
             print(done.stdout.decode(), end='')
             check(done.returncode == 0, f'full disks, each a tmpfs of its own {done.stderr.decode()[-300:]}')
             return
-    print('no file system may be mounted here: files of limited size (RLIMIT_FSIZE) stand for full disks')
+    print('no file system may be mounted here: files of limited size stand for full disks')
     check(os.environ.get('CI') != 'true', 'CI mounts a tmpfs')
-    at = where / 'disk'
-    at.mkdir()
-    full_disks(where, at, lambda _, file_bytes: ['prlimit', f'--fsize={file_bytes}'])
 
 
 def two_at_once(where):
@@ -323,6 +320,31 @@ def two_at_once(where):
         check(winners <= {0, 1}, f'two exports at once under the name out.{form}: {winners}')
 
 
+def between_renames(where):
+    """Killed while its files take their names: before each of them. What is there is old or new as a whole, with all that belongs to it."""
+    for form in ('pov', 'gltf'):
+        use = (['compile', where / 'a.yaml', '-q'], f'out.{form}')
+        sets, _ = whole_outputs(where, use)
+        place = Place(where)
+        killed = 0
+        for when in range(1, 9):
+            fill(place.out, sets[1])
+            command = ['strace', '-f', '-qq', '-o', '/dev/null', '-e', 'trace=rename,renameat,renameat2,link,linkat',
+                       '-e', f'inject=rename,renameat,renameat2,link,linkat:signal=SIGKILL:when={when}', *full_command(use, place.out)]
+            done = run(command, env=place.environment())
+            found = {name: data for name, data in contents(place.out).items() if not name.startswith('.orbc.')}
+            check(complete(found, sets), f'{form}, killed before renaming file {when}: {sorted(found)}')
+            killed += done.returncode != 0
+        check(2 <= killed < 8, f'{form}: {killed} of 8 runs were killed while files took their names')
+
+
+def limited_files(where):
+    """Files that may not grow (RLIMIT_FSIZE) stand for full disks where nothing can be mounted."""
+    at = where / 'limited'
+    at.mkdir()
+    full_disks(where, at, lambda _, file_bytes: ['prlimit', f'--fsize={file_bytes}'])
+
+
 with folder() as name:
     base = pathlib.Path(name)
     prepare(base)
@@ -330,9 +352,9 @@ with folder() as name:
         small_tmpfs(base)
         run(['umount', base / 'disk'])
         finish()
-    need('povray', 'blender')
+    need('povray', 'blender', 'strace')
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    parts = {part.__name__: part for part in (streams, disks, two_at_once, signals)}
+    parts = {part.__name__: part for part in (streams, disks, limited_files, between_renames, two_at_once, signals)}
     for part in [parts[name] for name in sys.argv[2:]] or parts.values():
         begin = time.monotonic()
         part(base)
