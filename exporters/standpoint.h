@@ -12,14 +12,14 @@ struct Standpoint {
   geometry::Vector3 location, forward, right, up;
 };
 
-/// In:      a product; bent ones have the eye above the origin, flat ones (`--view disk`) at its own place in the disk chart; both at the
-///          product's scale.
+/// In:      a product; bent ones have the eye above the origin, flat ones (`--view disk`, straight rays) at its own
+///          place in the disk chart; both at the product's scale.
 /// Formula: the chart map z ↦ (az + b)/(−κ b̄ z + ā) has the derivative 1/ā² at 0, so directions turn by arg a².
 [[nodiscard]] inline Standpoint standpoint(const driver::Product& product) {
   const place::Camera& eye = product.eye;
   if (!product.disk_view) return {{0, 0, product.scale * eye.z}, eye.forward, eye.right, eye.up};
   const geometry::Isometry& map = eye.room_from_eye;
-  const std::complex<double> at = geometry::disk_from_point(map.space, map * geometry::Point());
+  const std::complex<double> at = product.chart_scale * geometry::disk_from_point(map.space, map * geometry::Point());
   const std::complex<double> turn = map.a * map.a / std::norm(map.a);
   const auto turned = [&](const geometry::Vector3& v) {
     const std::complex<double> horizontal = turn * std::complex<double>(v.x, v.y);

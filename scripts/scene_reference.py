@@ -67,6 +67,7 @@ BESIDE = {
     'room.aspect': ['orbifold=*2222'],
     'room.length': ['orbifold=**'],
     'camera.eye_separation': ['camera.projection=stereo', 'camera.size=[64, 64]'],
+    'rays': ['orbifold=*237'],
     'white': [LAMP],
     'ambient': [LAMP],
     'bake': [LAMP],

@@ -72,7 +72,7 @@ const std::vector<ModelPart>& model_of(const BendContext& context, std::size_t c
 
 CopyMap copy_map(const BendContext& context, const cover::Copy& copy) {
   const Isometry eye_from_copy = context.eye_from_cover * copy.cover_from_room;
-  return {context.options.view, {eye_from_copy.space, geometry::matrix(eye_from_copy), copy.sheet}};
+  return {context.options.view, {eye_from_copy.space, geometry::matrix(eye_from_copy), copy.sheet}, context.options.chart_scale};
 }
 
 /// A wall belongs to two copies: the one whose wall does not face the eye draws it. The charts of View::disk have no sheets.
@@ -365,7 +365,7 @@ Result<BentCover> bend(const place::Interior& room, const DrawList& list, const 
   const BendContext context = make_context(room, list, eye, options, executor);
   BendTotals totals = count_all(context, context.metric, executor, progress);
   if (!totals.fits) return too_dense(context, executor);
-  BentCover cover = allocated(totals, context.metric.tolerance);
+  BentCover cover = allocated(totals, options.chart_eye ? options.tolerance_px : context.metric.tolerance);
   for_copies(list.copies.size(), executor, progress, "bending", [&](std::size_t i) {
     CopyWriter(context, i, cover).run(totals.copies[i].decisions);
     std::vector<std::vector<bool>>().swap(totals.copies[i].decisions);

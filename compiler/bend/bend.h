@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct BendOptions {
   /// View::eye: the largest distance of a chord from the true curve, sideways or in depth, in pixels of the eye's picture; > 0
   double tolerance_px = 0.25;
   double disk_tolerance = 1e-3;  ///< View::disk: the same, in chart length; > 0
+  double chart_scale = 1;        ///< View::disk: what the chart is multiplied by, but not the height
+  /// View::disk: an eye in the scaled chart, for whose straight rays `tolerance_px` holds instead of `disk_tolerance`
+  std::optional<geometry::Vector3> chart_eye = std::nullopt;
   /// Whether colours change inside of all triangles (baked light), not only where a part has a texture or a pattern
   bool colors_vary = false;
   double color_tolerance = 4;  ///< how far such colours may shift within their surface, in units of the tolerance; > 0

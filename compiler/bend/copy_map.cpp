@@ -17,7 +17,7 @@ geometry::Vector3 image_of(const CopyMap& map, const Ambient& v, double z) {
   if (map.view == View::eye) return bent_position(map.log, p, z);
   const Ambient q = map.log.eye_from_copy * p;
   if (map.log.space == Space::euclidean) return {q.x, q.y, z};
-  const double scale = 1 / std::max(1 + q.w, 1e-12);
+  const double scale = map.chart_scale / std::max(1 + q.w, 1e-12);
   return {q.x * scale, q.y * scale, z};
 }
 

@@ -8,6 +8,7 @@ namespace orbc::bend {
 struct CopyMap {
   View view = View::eye;
   LogMap log;
+  double chart_scale = 1;  ///< View::disk
 };
 
 /// The image of a point, in double.

@@ -79,6 +79,7 @@ double error_bound(const CopyMap& map, const ScreenMetric& metric, const EdgeMes
   const double d = geometry::arc_k(map.log.space, c.w, math::hypot(c.x, c.y));
   const double from = std::max(0.0, d - part.circle.radius), to = d + part.circle.radius;
   if (map.view == View::eye) return error_bound_for_eye(map, metric, part, from, to);
+  if (metric.chart_eye) return kUnbounded;
   const double l2 = part.max_length * part.max_length;
   double k = 0.58;
   if (map.log.space == Space::spherical) {

@@ -48,14 +48,19 @@ ChordError error_in_picture(const ScreenMetric& metric, double angle, double pix
   return {tolerances, true, 0};
 }
 
+/// Of the tolerance. Far out in the chart of S² everything is large, so the tolerance grows with the distance; with an eye in the chart,
+/// with that from the eye.
+double disk_scale(const ScreenMetric& metric, const Vector3& p) {
+  return metric.chart_eye ? std::max(length(p - metric.eye), 1e-9) : std::max(1.0, math::hypot(p.x, p.y));
+}
+
 ChordError measure_chord_in_disk(const ScreenMetric& metric, const Vector3& a, const Vector3& b, std::span<const CurvePoint> curve,
                                  double color_tolerance) {
   double largest = 0;
   std::size_t worst = 0;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vector3& p = curve[i].image;
-    // Far out in the chart of S² everything is large, so the tolerance grows with the distance.
-    const double scale = std::max(1.0, math::hypot(p.x, p.y));
+    const double scale = disk_scale(metric, p);
     double off = segment_distance(p, a, b);
     if (color_tolerance > 0) off = std::max(off, length(p - (a + curve[i].parameter * (b - a))) / color_tolerance);
     if (off / scale > largest) {
@@ -75,7 +80,7 @@ ScreenMetric screen_metric(const place::Camera& eye, const BendOptions& options)
   metric.forward = eye.forward;
   metric.camera = eye;
   metric.tolerance = options.view == View::disk ? options.disk_tolerance : options.tolerance_px;
-  if (options.view == View::disk) return metric;
+  if (options.view == View::disk && !options.chart_eye) return metric;
   const double wide = math::tan(eye.fov.radians / 2), high = wide * eye.height / eye.width;
   switch (eye.projection) {
     case scene::Projection::perspective:
@@ -96,6 +101,11 @@ ScreenMetric screen_metric(const place::Camera& eye, const BendOptions& options)
       metric.pixels = eye.width / eye.fov.radians;
       metric.cos_border = 1 / math::hypot(1, eye.fov.radians / 2 * eye.height / eye.width);
       break;
+  }
+  if (options.view == View::disk) {
+    metric.chart_eye = true;
+    metric.eye = *options.chart_eye;
+    metric.tolerance = options.tolerance_px / max_pixels_per_radian(metric);
   }
   return metric;
 }
@@ -153,7 +163,7 @@ ChordError measure_centre(const ScreenMetric& metric, const std::array<Vector3, 
   const double area = length(normal), height = area > 0 ? std::fabs(dot(off, normal)) / area : length(off);
   if (metric.view == View::disk) {
     const double wrong = color_tolerance > 0 ? std::max(height, length(off) / color_tolerance) : height;
-    return {wrong / std::max(1.0, math::hypot(centre.x, centre.y)) / metric.tolerance, true, 0};
+    return {wrong / disk_scale(metric, centre) / metric.tolerance, true, 0};
   }
   const Vector3 p = centre - metric.eye;
   const double far = std::max(length(p), 1e-9);

@@ -22,6 +22,7 @@ struct ScreenMetric {
   double pixels = 1;        ///< per radian, at the centre of the picture
   double cos_border = 1;    ///< perspective: cosine of the angle to the corner; others: of the highest elevation that counts
   double tolerance = 0.25;  ///< pixels, or chart length
+  bool chart_eye = false;   ///< View::disk: the tolerance grows with the distance from `eye`, which stands in the chart
   bool framed = false;      ///< perspective: points may lie outside of the picture
   std::array<geometry::Vector3, 4> outward{};  ///< framed: outward unit normals of the planes through the eye and the picture's sides
 };

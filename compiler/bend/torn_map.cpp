@@ -15,7 +15,7 @@ using geometry::Vector3;
 namespace {
 
 constexpr double kAxisRadians = 1e-9;      // directions as seen from the axis are good to 1e-7 here
-constexpr double kDiskCircleRadius = 100;  // View::disk: where the drawn plane ends, the image of the antipode
+constexpr double kDiskCircleRadius = 100;  // View::disk: where the drawn plane ends, the image of the antipode; times the chart's scale
 
 }  // namespace
 
@@ -38,7 +38,7 @@ TornMap::TornMap(const CopyMap& map, const ScreenMetric& metric) : map_(map) {
 
 double TornMap::circle_radius(Axis axis) const {
   if (!has_axes() || axis == Axis::none) return 0;
-  if (map_.view == View::disk) return axis == Axis::antipode ? kDiskCircleRadius : 0;
+  if (map_.view == View::disk) return axis == Axis::antipode ? map_.chart_scale * kDiskCircleRadius : 0;
   const int half_turns = axis == Axis::antipode ? map_.log.sheet | 1 : (map_.log.sheet + 1) & ~1;
   return axis == Axis::foot && map_.log.sheet == 0 ? 0 : half_turns * std::numbers::pi;
 }

@@ -64,6 +64,7 @@ struct SceneArguments {
   std::string size;                 ///< "800x600"; empty = the scene's
   std::optional<int> max_bounces;
   std::string projection;           ///< empty = the scene's
+  std::string rays;                 ///< curved, straight; empty = the scene's
   bool expected_background = false;
   std::string integrator;           ///< direct, path; empty = the scene's
   std::string atlas;                ///< 8, 16, exr; empty = the scene's

@@ -15,6 +15,7 @@
 #include "compiler/cli/support.h"
 #include "compiler/cli/write_export.h"
 #include "compiler/driver/compile.h"
+#include "compiler/driver/straight.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/unlit.h"
 #include "compiler/native_lights/split.h"
@@ -182,7 +183,8 @@ int compile(const CompileArguments& a, const Common& common) {
   const driver::PreparedScene scene(*loaded, prepare_options(a));
   if (a.plan) return write_plan(scene, a, common);
   if (!format.write) return write_tiling(*loaded, a, common);
-  const Diagnostics unlit = driver::unlit_note(*loaded);
+  Diagnostics unlit = driver::unlit_note(*loaded);
+  append(unlit, driver::straight_note(*loaded));
   print(unlit, common);
   append(loaded->notes, unlit);
   const auto made = export_scene(scene, a, std::string(format.name), common);

@@ -39,6 +39,11 @@ void add_scene(CLI::App& command, SceneArguments& scene) {
                   "Camera instead of the scene's; stereo: two panoramas, that of the left eye on top (tracer)")
       ->check(CLI::IsMember({"perspective", "panorama", "cylinder", "stereo"}))
       ->type_name("NAME");
+  command
+      .add_option("--rays", scene.rays,
+                  "Light along geodesics (curved), or for comparison the disk chart as straight rays show it, instead of the scene's")
+      ->check(CLI::IsMember({"curved", "straight"}))
+      ->type_name("NAME");
   command.add_flag("--expected-background", scene.expected_background,
                    "Where mirrors are followed no further show the colour expected beyond, instead of the background");
   command

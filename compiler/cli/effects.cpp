@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "compiler/bake/diffuse.h"
+#include "compiler/driver/straight.h"
 
 namespace orbc::cli {
 namespace {
@@ -23,7 +24,17 @@ using Idle = const char* (*)(const Situation& now, unsigned target);
 
 const char* never(const Situation&, unsigned) { return nullptr; }
 const char* in_plans(const Situation& now, unsigned) { return now.use.plan ? "--plan writes no file" : nullptr; }
-const char* of_the_disk(const Situation& now, unsigned) { return now.use.disk_view ? "--view disk is seen from anywhere" : nullptr; }
+bool draws_straight(const Situation& now) { return driver::draws_straight(now.loaded.scene); }
+const char* of_the_disk(const Situation& now, unsigned) {
+  if (draws_straight(now)) return "straight rays show the chart in full, and light that does not depend on the eye";
+  return now.use.disk_view ? "--view disk is seen from anywhere" : nullptr;
+}
+const char* of_tolerance(const Situation& now, unsigned) { return now.use.disk_view ? "--view disk is seen from anywhere" : nullptr; }
+const char* of_rays(const Situation& now, unsigned) {
+  if (now.loaded.interior->polygon.space == geometry::Space::euclidean) return "in flat rooms geodesics are straight";
+  return now.use.disk_view ? "--view disk is seen from anywhere" : nullptr;
+}
+const char* of_lens(const Situation& now, unsigned) { return draws_straight(now) ? "straight rays belong to a pinhole" : nullptr; }
 const char* with_all_passes(const Situation& now, unsigned) { return now.use.all_passes ? "an .exr holds all of them" : nullptr; }
 const char* with_samples(const Situation& now, unsigned) {
   return now.use.samples > 1 ? "with more than one sample edges are mixed, and only --threshold counts" : nullptr;
@@ -75,7 +86,8 @@ constexpr Row kOptions[] = {
     {"quality", kPictures, of_quality},
     {"atlas", kExports, in_plans},
     {"lights", kExports, without_lamps},
-    {"tolerance", kExports, of_the_disk},
+    {"rays", kPictures, of_rays},
+    {"tolerance", kExports, of_tolerance},
     {"max-triangles", kExports, never},
     {"no-lod", kExports, of_the_disk},
     {"no-highlights", kExports, of_highlights},
@@ -91,8 +103,14 @@ constexpr Row kOptions[] = {
 
 // Keys whose effect depends on what is made of the scene; the reader warns of those that never have one.
 constexpr Row kKeys[] = {
-    {"ambient", kPictures, without_light},      {"bake.atlas", kExports, never},         {"bake.lights", kExports, without_lamps},
-    {"bake.mirrors", kPictures, without_lamps}, {"bake.quality", kPictures, of_quality}, {"cover.min_pixels", kExports, of_the_disk},
+    {"ambient", kPictures, without_light},
+    {"bake.atlas", kExports, never},
+    {"bake.lights", kExports, without_lamps},
+    {"bake.mirrors", kPictures, without_lamps},
+    {"bake.quality", kPictures, of_quality},
+    {"cover.min_pixels", kExports, of_the_disk},
+    {"rays", kPictures, of_rays},
+    {"camera.lens", kPictures, of_lens},
 };
 
 const char* owner(unsigned targets) {

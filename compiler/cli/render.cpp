@@ -14,6 +14,7 @@
 #include "compiler/cli/result.h"
 #include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
+#include "compiler/driver/straight.h"
 #include "compiler/driver/threads.h"
 #include "compiler/driver/trace_film.h"
 #include "compiler/driver/unlit.h"
@@ -220,6 +221,7 @@ int render(const RenderArguments& arguments, const Common& common) {
   const unsigned target = here ? kTraced : a.engine == "povray" ? kPov : kGltf;
   append(loaded->notes, without_effect(common.given, {target, false, false, format == PictureFormat::exr, a.samples}, *loaded));
   if (a.pass == "color") append(loaded->notes, driver::unlit_note(*loaded));
+  append(loaded->notes, driver::straight_note(*loaded));
   if (here) append(loaded->notes, few_lens_samples(*loaded, to_noise ? 1024 : a.samples));
   print(loaded->notes, common);
   const driver::PreparedScene scene(*loaded, prepare_options(a.compile));

@@ -71,6 +71,7 @@ scene::Overrides overrides_of(const SceneArguments& a) {
   }
   if (a.max_bounces) add_override("--max-bounces", "cover.max_bounces", std::to_string(*a.max_bounces));
   add_override("--projection", "camera.projection", a.projection);
+  add_override("--rays", "rays", a.rays);
   add_override("--integrator", "integrator", a.integrator);
   add_override("--atlas", "bake.atlas", a.atlas);
   add_override("--lights", "bake.lights", a.lights);

@@ -68,6 +68,7 @@ Product product_of(const Job& job, Drawing& drawing) {
   product.uv = std::move(drawing.bent.uv);
   product.indices = std::move(drawing.bent.indices);
   product.disk_view = job.options.bend.view == bend::View::disk;
+  product.chart_scale = job.options.bend.chart_scale;
   return product;
 }
 

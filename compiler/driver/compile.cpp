@@ -6,6 +6,7 @@
 
 #include "compiler/driver/assemble.h"
 #include "compiler/driver/plan.h"
+#include "compiler/driver/straight.h"
 #include "compiler/native_lights/split.h"
 
 namespace orbc::driver {
@@ -44,12 +45,14 @@ Result<Drawing> draw(const Job& job) {
 
 }  // namespace
 
-Result<Compiled> compile(const PreparedScene& scene, const place::Camera& eye, const CompileOptions& options, const Executor& executor,
+Result<Compiled> compile(const PreparedScene& scene, const place::Camera& eye, const CompileOptions& asked, const Executor& executor,
                          const Progress& progress) {
+  const CompileOptions options = with_rays(asked, scene.scene(), eye);
   if (native_lights::uses_native_lights(scene.scene()) && options.bend.view != bend::View::eye)
-    return make_error("driver.native-view", "lamps of the renderer's own hang where one eye sees them: --view disk has none",
-                      "bake the light (`lights: baked`), or leave out --view disk", scene.scene().span);
-  if (auto unsupported = unsupported_features(scene, eye, options.bend.view); !unsupported.empty()) return unsupported;
+    return make_error("driver.native-view",
+                      "lamps of the renderer's own hang where one eye sees them along geodesics: --view disk and straight rays have none",
+                      "bake the light (`lights: baked`), or leave out --view disk or `rays: straight`", scene.scene().span);
+  if (auto unsupported = unsupported_features(scene, eye, asked.bend.view); !unsupported.empty()) return unsupported;
   const Job job{scene.drawn_scene(), scene, eye, scene.scene().cover, options, {executor, progress}};
   auto drawing = draw(job);
   if (!drawing) return with_bounces_that_fit(drawing.error(), job);

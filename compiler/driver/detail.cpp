@@ -59,9 +59,10 @@ Result<std::vector<cover::Copy>> unfold_within_memory(const Job& job) {
   auto copies = cover::unfold(interior, job.eye, job.cover, {std::min(max_copies, cover::UnfoldOptions().max_copies), job.run.progress});
   if (!copies || is_for_eye(job)) return copies;
   if (std::any_of(copies->begin(), copies->end(), [](const cover::Copy& c) { return !c.height_bounds.empty(); }))
-    return make_error("cover.stacked-mirrors",
-                      "the mirrors above each other that differ show their copies to one eye: --view disk has none",
-                      "give them the same reflectance and tint, or leave out --view disk");
+    return make_error(
+        "cover.stacked-mirrors",
+        "the mirrors above each other that differ show their copies to one eye along geodesics: --view disk and straight rays have none",
+        "give them the same reflectance and tint, or leave out --view disk or `rays: straight`");
   return copies;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/driver/straight.h"
 #include "compiler/driver/unit_of_length.h"
 #include "compiler/light/lighting.h"
 #include "compiler/mesh_io/load.h"
@@ -41,6 +42,7 @@ Result<LoadedScene> furnish_and_light(scene::Scene scene, const mesh::AssetSourc
   const auto eye = place::make_camera(scene, *loaded.interior);
   if (!eye) return located(eye.error(), scene.camera.span.source ? scene.camera.span : scene.span);
   loaded.eye = *eye;
+  if (draws_straight(scene)) loaded.eye.lens.reset();
   loaded.scene = std::move(scene);
   return loaded;
 }
@@ -101,7 +103,9 @@ Result<LoadedScene> load(scene::ReadResult read, const mesh::AssetSource& assets
 }
 
 Result<place::Camera> eye_of(const scene::Scene& scene, const LoadedScene& loaded) {
-  return place::make_camera(in_compiled_unit(scene, loaded.unit_of_length), *loaded.interior);
+  auto eye = place::make_camera(in_compiled_unit(scene, loaded.unit_of_length), *loaded.interior);
+  if (eye && draws_straight(scene)) eye->lens.reset();
+  return eye;
 }
 
 }  // namespace orbc::driver

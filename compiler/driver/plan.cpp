@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "compiler/driver/fitting_bounces.h"
+#include "compiler/driver/straight.h"
 #include "compiler/lod/estimate.h"
 
 namespace orbc::driver {
@@ -84,8 +85,9 @@ Diagnostics with_bounces_that_fit(Diagnostics errors, const Job& job) {
   return located(with_fitting_bounces(std::move(errors), job.cover.max_bounces, fits), job.lit_scene.scene().span);
 }
 
-Result<cover::Plan> plan(const PreparedScene& scene, const place::Camera& eye, const CompileOptions& options, const Executor& executor) {
-  if (auto unsupported = unsupported_features(scene, eye, options.bend.view); !unsupported.empty()) return unsupported;
+Result<cover::Plan> plan(const PreparedScene& scene, const place::Camera& eye, const CompileOptions& asked, const Executor& executor) {
+  const CompileOptions options = with_rays(asked, scene.scene(), eye);
+  if (auto unsupported = unsupported_features(scene, eye, asked.bend.view); !unsupported.empty()) return unsupported;
   const Progress silent;
   const Job job{scene.drawn_scene(), scene, eye, scene.scene().cover, options, {executor, silent}};
   auto planned = plan_job(job);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compiler/driver/straight.h"
 #include "compiler/lod/build.h"
 #include "compiler/lod/select.h"
 #include "compiler/native_lights/split.h"
@@ -52,7 +53,9 @@ DrawnSurfaces baked_surfaces(const place::Interior& interior, const Executor& ex
 }  // namespace
 
 PreparedScene::PreparedScene(LoadedScene loaded, const PrepareOptions& options)
-    : loaded_(std::move(loaded)), options_(options), is_baked_(bake::needs_bake(loaded_.scene, *loaded_.interior)) {}
+    : loaded_(std::move(loaded)), options_(options), is_baked_(bake::needs_bake(loaded_.scene, *loaded_.interior)) {
+  if (draws_straight(loaded_.scene)) options_.lods = false;
+}
 
 const lod::InteriorWithLods& PreparedScene::lods(const Run& run) const {
   return lods_.get([&] {

@@ -55,7 +55,8 @@ struct Product {
   std::vector<std::string> objects;                  ///< products by object: names in the order of their entries in `copies`; else empty
   std::optional<native_lights::NativeLight> native;  ///< nothing: the atlas holds the light
   std::vector<std::array<float, 3>> normals;         ///< with `native` only: unit, parallel to positions
-  bool disk_view = false;                            ///< `--view disk`: positions are chart coordinates × height
+  bool disk_view = false;                            ///< `--view disk`, straight rays: positions are chart coordinates × height
+  double chart_scale = 1;                            ///< with `disk_view`: what the chart, but not the height, was multiplied by
   double scale = 1;  ///< power of two by which positions and lamps, not the eye, were multiplied (renderer_scale.h)
 };
 

@@ -24,7 +24,7 @@ constexpr int kMaxExponent = 64;                   // of the scale where the nea
 Vector3 eye_of(const Product& product) {
   if (!product.disk_view) return {0, 0, product.eye.z};
   const geometry::Isometry& map = product.eye.room_from_eye;
-  const std::complex<double> at = geometry::disk_from_point(map.space, map * geometry::Point());
+  const std::complex<double> at = product.chart_scale * geometry::disk_from_point(map.space, map * geometry::Point());
   return {at.real(), at.imag(), product.eye.z};
 }
 

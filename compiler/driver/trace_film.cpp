@@ -6,9 +6,11 @@
 
 #include "compiler/bake/diffuse.h"
 #include "compiler/cutoff/estimate.h"
+#include "compiler/driver/straight.h"
 #include "compiler/driver/unit_of_length.h"
 #include "compiler/image/srgb.h"
 #include "compiler/render/draw.h"
+#include "compiler/render/radiance.h"
 
 namespace orbc::driver {
 namespace {
@@ -46,7 +48,7 @@ render::DrawOptions draw_options(const PreparedScene& prepared, const place::Cam
     draw.background = (1 / lighting.exposure) * draw.background;
     draw.max_radiance = 1 / lighting.exposure;
   }
-  if (scene.cover.background_expected)
+  if (scene.cover.background_expected && !draws_straight(scene))
     draw.background = cutoff::estimate_cutoff({scene, eye, context.tracer, &lighting}, {true, {}, {}}, run.executor).color;
   return draw;
 }
@@ -57,6 +59,11 @@ namespace {
 class FilmSetup {
  public:
   FilmSetup(const PreparedScene& scene, const place::Camera& eye, bool exact, const Run& run) : options_(draw_options(scene, eye, run)) {
+    if (draws_straight(scene.scene())) {
+      options_.straight = &straight_.emplace(scene.trace_context(run).tracer, eye, render::follow_options(options_));
+      options_.max_depth = 0;  // what mirrors, glass and metals show belongs to an eye that sees along geodesics
+      options_.highlights = false;
+    }
     if (options_.lighting && !exact)
       options_.irradiance = &irradiance_.emplace(scene.interior(), *options_.lighting, cache_options(scene, eye));
   }
@@ -65,7 +72,8 @@ class FilmSetup {
   render::DrawOptions& options() { return options_; }
 
  private:
-  render::DrawOptions options_;  // refers to irradiance_
+  render::DrawOptions options_;  // refers to those below
+  std::optional<render::StraightRays> straight_;
   std::optional<bake::IrradianceCache> irradiance_;
 };
 

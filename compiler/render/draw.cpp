@@ -114,7 +114,10 @@ void draw_pixels(const trace::TraceScene& scene, const place::Camera& eye, const
         rays.push_back(eye_ray_from(eye, eye_at, x, y));
       }
     }
-    std::vector<trace::Path> paths = trace::follow(scene, rays, follow_options(options));
+    std::vector<trace::Path> paths;
+    if (!options.straight) paths = trace::follow(scene, rays, follow_options(options));
+    else
+      for (const trace::Ray& ray : rays) paths.push_back(options.straight->follow(ray));
     for (std::size_t j = 0; j < paths.size(); ++j) {
       const std::size_t i = first + j, sample = i % count;
       const Pixel at = pixels[i / count];

@@ -9,6 +9,7 @@
 #include "compiler/light/lighting.h"
 #include "compiler/place/camera.h"
 #include "compiler/render/film.h"
+#include "compiler/render/straight.h"
 #include "compiler/trace/follow.h"
 
 namespace orbc::render {
@@ -21,6 +22,8 @@ struct DrawOptions {
   int specular_samples = 256;                         ///< most directions sampled for the room in a rough metal, by all samples of a pixel
   int paths = 8;                                      ///< `integrator: path`: paths of indirect light per sample
   const light::LightingContext* lighting = nullptr;   ///< of this room; null: scenes without lamps, where surfaces show their albedo
+  bool highlights = true;                             ///< of lamps on glossy surfaces
+  const StraightRays* straight = nullptr;             ///< if given, the eye's rays are straight in the disk chart
   const bake::BakedLight* baked = nullptr;            ///< if given, matte light is looked up here
   const bake::IrradianceCache* irradiance = nullptr;  ///< if given, the light of lamps on matte surfaces is looked up here
   scene::Color background;                            ///< radiance where a path is cut off

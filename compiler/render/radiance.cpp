@@ -93,7 +93,7 @@ struct RayShader {
     const double white = light::white_level(lighting);
     const auto baked = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
     Color out = baked ? white * *baked : light::outgoing_radiance(lighting, material, color, direct_irradiance(path.hit, point, at));
-    if (material.kind == scene::MaterialKind::glossy)
+    if (options.highlights && material.kind == scene::MaterialKind::glossy)
       out = out + light::highlight(lighting, at, -point.incoming, material, color, sample_share * std::min(1.0, max_channel(weight)));
     out = clamped(out, white);
     if (baked || lighting.options.indirect_bounces == 0) return add(weight * out);

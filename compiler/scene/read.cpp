@@ -59,7 +59,7 @@ Scene read_root(Reader& reader, const Node& root) {
   scene.span = root.span;
   const Fields fields(reader, root, "the scene",
                       {"orbc", "orbifold", "allow_non_orbifold", "room", "objects", "lights", "ambient", "exposure", "white", "integrator",
-                       "bake", "camera", "cover", "animation"});
+                       "rays", "bake", "camera", "cover", "animation"});
   if (!fields.is_map()) return scene;
   read_version(fields);
   scene.allow_non_orbifold = fields.boolean("allow_non_orbifold", false);
@@ -78,6 +78,7 @@ Scene read_root(Reader& reader, const Node& root) {
   scene.exposure = fields.number("exposure", scene.exposure, {0, 1e6, true});
   scene.integrator =
       fields.choice<Integrator>("integrator", scene.integrator, {{"direct", Integrator::direct}, {"path", Integrator::path}});
+  scene.rays = fields.choice<Rays>("rays", scene.rays, {{"curved", Rays::curved}, {"straight", Rays::straight}});
   scene.bake = read_bake(reader, part("bake"), scene.integrator);
   scene.camera = read_camera(reader, part("camera"), facts);
   if (scene.orbifold_span.source) scene.cover.max_bounces = default_max_bounces(scene.orbifold, horizontal_mirrors(scene.room));

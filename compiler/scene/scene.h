@@ -198,6 +198,8 @@ struct BakeSpec {
   int seed = 1;                     ///< of the tracer's random numbers
 };
 
+/// How pictures show the cover: along geodesics, or as the disk chart is seen by straight rays.
+enum class Rays { curved, straight };
 /// Of eyes that are 64 mm apart in a room of 2.5 m, in heights of the room.
 inline constexpr double kEyeSeparation = 0.064 / 2.5;
 enum class Projection { perspective, panorama, cylinder, stereo };
@@ -250,6 +252,7 @@ struct Scene {
   Color ambient{0, 0, 0};           ///< radiance of the ambient light; scenes without any light are shown in their plain colours
   double exposure = 1;              ///< factor on the radiance (and plain colours) in images, but not on the background
   Integrator integrator = Integrator::direct;
+  Rays rays = Rays::curved;
   BakeSpec bake;
   Camera camera;
   CoverSpec cover;

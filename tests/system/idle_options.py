@@ -40,6 +40,7 @@ TABLE = [
     ('--size', '40x20', SVG, SVG),
     ('--max-bounces', '2', [], []),
     ('--projection', 'panorama', SVG, SVG),
+    ('--rays', 'straight', EVERYWHERE, EVERYWHERE),   # both rooms are flat
     ('--expected-background', None, SVG, SVG),
     ('--integrator', 'direct', SVG, SVG),
     ('--quality', 'normal', SVG, EVERYWHERE),
@@ -117,6 +118,12 @@ with folder() as name:
     # Where it depends on more than the format.
     done, files = make('curved', SVG[0], ['--model', 'klein'])
     check(told(done) == [] and files != make('curved', SVG[0])[1], 'models of curved spaces differ')
+    for use in PICTURES[:4]:
+        done, files = make('curved', use, ['--rays', 'straight'])
+        check(told(done) == [] and files != make('curved', use)[1], f'straight rays differ in curved rooms: {use[0]} to {use[1]}')
+    for option in ('--no-lod', '--expected-background', '--no-highlights'):
+        done, files = make('curved', ('compile', 'x.glb', ['--rays', 'straight']), [option])
+        check(told(done) == [option] and files == make('curved', ('compile', 'x.glb', ['--rays', 'straight']))[1], f'{option} with straight rays')
     done, files = make('plain', ('trace', 'x.exr', []), ['--pass', 'depth'])
     check(told(done) == ['--pass'] and files == make('plain', ('trace', 'x.exr', []))[1], 'an .exr holds all passes')
     for option in ('--no-lod', '--expected-background', '--no-highlights', '--tolerance=0.1'):

@@ -261,6 +261,8 @@ TEST_CASE("shapes, cameras and covers are read", "[scene]") {
   CHECK(lengths.lengths == std::map<int, double>{{1, 0.9}, {3, 1.1}});
   CHECK(good("stereo").scene.camera.projection == Projection::stereo);
   CHECK(good("stereo").scene.camera.eye_separation == 0.05);
+  CHECK(good("straight").scene.rays == Rays::straight);
+  CHECK(good("stereo").scene.rays == Rays::curved);
   const Camera panorama = good("panorama").scene.camera;
   CHECK(panorama.projection == Projection::panorama);
   CHECK(std::get<LookDirection>(panorama.look_at.value).elevation.degrees() == Approx(10));
