@@ -143,6 +143,8 @@ int check(const CheckArguments& arguments, const Common& common);
 int compile(const CompileArguments& arguments, const Common& common);
 int design(const DesignArguments& arguments, const Common& common);
 int render(const RenderArguments& arguments, const Common& common);
+/// Straight rays on the left, curved ones on the right.
+int compare(const RenderArguments& arguments, const Common& common);
 int print_moment(const AtArguments& arguments, const Common& common);
 int animate(const AnimateArguments& arguments, const Common& common);
 int verify(const VerifyArguments& arguments, const Common& common);

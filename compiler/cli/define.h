@@ -39,6 +39,7 @@ void define_compile(Program& program);
 void define_design(Program& program);
 void define_render(Program& program);
 void define_trace(Program& program);
+void define_compare(Program& program);
 void define_at(Program& program);
 void define_animate(Program& program);
 void define_verify(Program& program);

@@ -76,4 +76,26 @@ void define_trace(Program& program) {
   program.commands.push_back({c, [arguments](const Common& common) { return render(*arguments, common); }});
 }
 
+void define_compare(Program& program) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  RenderArguments& a = *arguments;
+  CLI::App* c = program.app.add_subcommand("compare", "Draw a scene by straight rays (left) and by curved ones (right), side by side");
+  add_scene(*c, a.compile.scene);
+  c->remove_option(c->get_option("--rays"));
+  c->get_option("--size")->description("Size of each of the two pictures instead of the scene's");
+  c->add_option("-o,--output", a.compile.output, "The picture, twice as wide as the scene's: .png or .jpg; - for PNG on standard output")
+      ->required()
+      ->type_name("FILE");
+  c->add_option("--engine", a.engine, "Who draws: povray, blender or tracer")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"povray", "blender", "tracer"}))
+      ->type_name("NAME");
+  c->add_option("--samples", a.samples, "Samples per pixel (default: 4)")->check(CLI::Range(1, 65536))->type_name("N");
+  add_exact(*c, a);
+  add_compile_options(*c, a.compile);
+  c->footer("Examples:\n  orbc compare s.yaml -o both.png\n  orbc compare s.yaml -o both.jpg --engine povray --size 800x600");
+  add_common(*c, program.common);
+  program.commands.push_back({c, [arguments](const Common& common) { return compare(*arguments, common); }});
+}
+
 }  // namespace orbc::cli

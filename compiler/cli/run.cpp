@@ -35,6 +35,7 @@ void define_commands(Program& program) {
   define_trace(program);
   define_at(program);
   define_animate(program);
+  define_compare(program);
   define_verify(program);
   define_diff(program);
   define_explain(program);

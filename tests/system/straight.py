@@ -40,7 +40,14 @@ with folder() as where:
     check(b'`camera.lens` changes nothing here: straight rays belong to a pinhole' in lens.stderr and b'few-lens' not in lens.stderr, 'straight rays have no lens, which is told')
     lit = run([BIN / 'orbc', 'trace', path('h2.yaml'), '-v', '-o', path('x.png'), '--rays', 'straight', '--set', 'lights=[{at: {polar: [0, 0deg], z: 0.7}}]', '--set', 'objects.sphere={sphere: {radius: 0.08}, material: gold}', '--size', '16x12'])
     check(lit.returncode == 0 and b'note[driver.straight-light]' in lit.stderr, 'what lit straight pictures leave out is told')
+    for name in ('h2', 'e2'):
+        both = run([BIN / 'orbc', 'compare', '-', '-o', path('both.png')], input=pathlib.Path(path(name + '.yaml')).read_bytes())
+        expected = np.concatenate([picture(path(f'{name}-straight.png')), picture(path(f'{name}-curved.png'))], axis=1)
+        check(both.returncode == 0 and np.array_equal(picture(path('both.png')), expected), f'{name}: compare draws straight rays on the left, curved ones on the right {both.stderr.decode()}')
+        check((b'warning[cli.same-rays]' in both.stderr) == (name == 'e2'), f'{name}: in flat rooms both are the same, which is told')
     need('povray')
+    both = run([BIN / 'orbc', 'compare', path('s2.yaml'), '-o', path('both.png'), '--engine', 'povray', '--size', '64x48', '--json'])
+    check(both.returncode == 0 and picture(path('both.png')).shape[:2] == (48, 128) and b'"left": "straight"' in both.stdout, 'compare lets POV-Ray draw both')
     pathlib.Path(path('storeys.yaml')).write_text(pathlib.Path(path('h2.yaml')).read_text().replace('{color: linen}', '{mirror: {reflectance: 0.8}}').replace('max_bounces: 4', 'max_bounces: 3'))
     for name in ('h2', 's2', 'tinted', 'storeys'):
         compared = run([BIN / 'orbc', 'verify', path(name + '.yaml'), '--rays', 'straight', '--within', '4', '--threshold', '0.99', '--off-edge', '1e-3'])
