@@ -266,8 +266,8 @@ BendTotals count_all(const BendContext& context, const ScreenMetric& metric, con
 
 /// The diagnostic of a scene that is too dense, with a tolerance that was tried and fits.
 Diagnostic too_dense(const BendContext& context, const Executor& executor) {
-  const bool disk = context.options.view == View::disk;
-  const double asked = context.metric.tolerance, named = (disk ? 1 : context.options.message_factor) * asked;
+  const bool disk = context.options.view == View::disk && !context.options.chart_eye;
+  const double asked = context.metric.tolerance, named = disk ? asked : context.options.message_factor * context.options.tolerance_px;
   std::uint64_t unsplit = 0;
   for (std::size_t i = 0; i < context.list.copies.size(); ++i) {
     for (const CopyPart& part : CopyParts(context, i)) unsplit += part.part->mesh->triangles.size();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "compiler/cli/child.h"
 #include "compiler/cli/commands.h"
 #include "compiler/cli/draw.h"
 #include "compiler/cli/effects.h"
