@@ -109,7 +109,7 @@ svg::Geodesic geodesic_of(const std::string& text, geometry::Space space) {
   if (count != 4 || at != end)
     throw UsageError("--geodesic wants two points of the disk, X1,Y1,X2,Y2, such as 0.1,0.35,-0.4,0.1; got " + text);
   const std::complex<double> p(values[0], values[1]), q(values[2], values[3]);
-  if (space == geometry::Space::hyperbolic && !(std::abs(p) < 0.999 && std::abs(q) < 0.999))
+  if (space == geometry::Space::hyperbolic && !(std::norm(p) < 0.999 * 0.999 && std::norm(q) < 0.999 * 0.999))
     throw UsageError("--geodesic wants points inside the disk, nearer to its centre than 0.999; got " + text);
   const svg::Geodesic geodesic{geometry::point_from_disk(space, p), geometry::point_from_disk(space, q)};
   const double apart = geometry::distance(space, geodesic.from, geodesic.to);

@@ -27,13 +27,16 @@ constexpr double kLongestPiece = 0.25;  // times the distance to the rim, or wha
 constexpr double kPastHit = 1e-9;
 constexpr int kMostPieces = 100'000;  // lines that would need more lie within rounding of the rim
 
+/// std::abs takes hypot from the C library, whose last bit depends on the processor.
+double modulus(const std::complex<double>& z) { return math::hypot(z.real(), z.imag()); }
+
 std::complex<double> chart_of(Space space, const Point& p) { return kStraightScale * geometry::disk_from_point(space, p); }
 
 /// The direction in the chart of a tangent vector at P: the derivative of (x + iy)/(1 + w).
 std::complex<double> chart_direction(const Point& p, const geometry::Tangent& v) {
   const std::complex<double> z(p.x, p.y), dz(v.x, v.y);
   const std::complex<double> d = dz / (1 + p.w) - z * (v.w / ((1 + p.w) * (1 + p.w)));
-  return d / std::abs(d);
+  return d / modulus(d);
 }
 
 /// The parameter at which the line |at + s·along| = radius is left. In: |at| < radius, |along| = 1.
@@ -89,7 +92,7 @@ StraightRays::StraightRays(const trace::TraceScene& scene, const place::Camera& 
 }
 
 double StraightRays::piece_length(const Walk& walk) const {
-  const double far = std::abs(walk.chart_at(walk.s));
+  const double far = modulus(walk.chart_at(walk.s));
   const bool is_disk = walk.space == Space::hyperbolic;
   const double stretch = is_disk ? 1 - far * far / 4 : 1 + far * far / 4, bend = far / 2 / stretch;
   const double most = kLongestPiece * (is_disk ? kStraightScale - far : 1 + far);
@@ -151,7 +154,7 @@ trace::Path StraightRays::follow(const trace::Ray& first) const {
       const Position in_room = trace::position_at(space, ray, path.hit.t);
       const Position in_cover{geometry::inverse(met.room_from_cover) * in_room.floor, met.sign * in_room.z + met.offset};
       if (is_drawn(in_cover, path)) {
-        path.length = math::hypot(std::abs(chart_of(space, in_cover.floor) - walk.start), in_cover.z - walk.z);
+        path.length = math::hypot(modulus(chart_of(space, in_cover.floor) - walk.start), in_cover.z - walk.z);
         return path;
       }
       if (path.hit.kind != trace::HitKind::triangle) return nothing;  // nothing is drawn behind a wall, floor or ceiling
