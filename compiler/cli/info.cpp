@@ -1,17 +1,24 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
 
 #include "compiler/cli/commands.h"
 #include "compiler/cli/expanded_star.h"
 #include "compiler/cli/isometries_json.h"
 #include "compiler/cli/streams.h"
 #include "compiler/cli/support.h"
+#include "compiler/cli/symbol_info.h"
 #include "compiler/notation/classify.h"
 #include "compiler/notation/euler.h"
 #include "compiler/notation/growth.h"
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
+#include "compiler/notation/symbol.h"
+#include "compiler/notation/translate.h"
+#include "compiler/room/glued_polygon.h"
 #include "compiler/room/realise.h"
 #include "compiler/room/summary.h"
 
@@ -58,6 +65,29 @@ Result<Facts> facts_of(const InfoArguments& a, Diagnostics& notes) {
   return facts;
 }
 
+/// The sides of a room closed by mirrors, in the words of symbol_json.
+template <typename Add, typename List>
+void add_sides(const Facts& f, const Add& add, const List& list) {
+  const std::size_t walls = f.room.walls.size();
+  std::vector<std::size_t> numbers(walls);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  add("sides",
+      list(numbers, [&](std::size_t i) { return fmt::format("[\"m{}\", \"{}\"]", i, f.room.walls[i].reflects ? "mirror" : "wall"); }));
+  add("partner", list(numbers, [](std::size_t i) { return std::to_string(i); }));
+  add("side_lengths", list(f.room.walls, [&](const room::Wall& w) { return nlohmann::ordered_json(w.length).dump(); }));
+  if (f.tiles && f.orbifold.corners.size() >= 3) {
+    const auto order_at = [&](std::size_t i) { return static_cast<int>(numerator(f.orbifold.corners[i])); };
+    add("corners_2pi_over", list(numbers, [&](std::size_t i) { return std::to_string(2 * order_at(i)); }));
+    add("relators", list(numbers, [&](std::size_t i) {
+          std::vector<std::size_t> word;
+          for (int turn = 0; turn < order_at(i); ++turn) word.insert(word.end(), {i, (i + walls - 1) % walls});
+          return fmt::format("[{}]", fmt::join(word, ", "));
+        }));
+  }
+  if (f.tiles) add("letters", std::to_string(walls));
+  if (f.tiles) add("counts", list(f.copies, [](const Integer& n) { return to_string(n); }));
+}
+
 std::string json_text(const Facts& f, int copies) {
   using Json = nlohmann::ordered_json;
   const auto number = [](double v) { return Json(v).dump(); };
@@ -68,6 +98,7 @@ std::string json_text(const Facts& f, int copies) {
     for (const auto& value : values) parts.push_back(text(value));
     return fmt::format("[{}]", fmt::join(parts, ", "));
   };
+  add("symbol", Json(notation::to_text(f.orbifold)).dump());
   add("notation", Json(notation::to_text(f.orbifold)).dump());
   add("canonical", Json(notation::to_text(notation::canonical(f.orbifold))).dump());
   add("space", Json(geometry::name(f.space)).dump());
@@ -78,9 +109,15 @@ std::string json_text(const Facts& f, int copies) {
   add("group_order", order ? to_string(*order) : "null");
   add("growth_rate", rate ? number(*rate) : "null");
   add("copies_per_length", f.tiles ? list(f.copies, [](const Integer& n) { return to_string(n); }) : "null");
-  add("sides", list(f.room.walls, [&](const room::Wall& w) { return number(w.length); }));
+  if (f.orbifold.strip && f.orbifold.corners.empty()) {
+    // As an orbifold `**` is the annulus: a piece of the strip whose ends are glued.
+    lines.push_back(polygon_lines(*room::glued_polygon(notation::Symbol{0, {}, {{}, {}}, 0}), static_cast<int>(f.copies.size()) - 1));
+  } else {
+    add_sides(f, add, list);
+  }
+  if (order) add("order", to_string(*order));
   add("angles", list(f.room.corners, [&](const room::Corner& c) { return number(c.angle); }));
-  add("inradius", f.room.inradius > 0 ? number(f.room.inradius) : "null");
+  if (!(f.orbifold.strip && f.orbifold.corners.empty())) add("inradius", f.room.inradius > 0 ? number(f.room.inradius) : "null");
   add("circumradius", number(f.room.circumradius));
   add("moduli", std::to_string(room::summarise(f.room).moduli));
   const int cover = room::summarise(f.room).translational_cover;
@@ -134,10 +171,34 @@ std::string people_text(const Facts& f) {
 
 }  // namespace
 
+namespace {
+
+/// Tells of an orbifold that is not closed by mirrors alone. Nothing if the text is no such symbol, but for instance the name of a group.
+std::optional<int> symbol_info(const InfoArguments& a, const Common& common) {
+  const auto source = std::make_shared<SourceText>(SourceText{"notation", a.notation});
+  const SourceSpan span{source, 1, 1, a.notation.size()};
+  auto symbol = notation::parse_symbol(a.notation, span);
+  const auto translation = symbol ? std::nullopt : notation::translate(a.notation);
+  if (translation && !translation->conway.empty()) symbol = notation::parse_symbol(translation->conway);
+  if (!symbol || notation::is_kaleidoscopic(*symbol) || notation::to_text(*symbol) == "1") return std::nullopt;
+  const auto polygon = room::glued_polygon(*symbol);
+  if (!polygon) return print(located(polygon.error(), span), common), kSceneWrong;
+  if (translation && !common.quiet)
+    print_message(
+        to_text(make_note("notation.read-as", fmt::format("{} is read as {}", a.notation, notation::to_text(*symbol)), "", span)));
+  write_standard_output(common.json ? symbol_json(*symbol, *polygon, a.max_length) : symbol_text(*symbol, *polygon));
+  return kDone;
+}
+
+}  // namespace
+
 int info(const InfoArguments& a, const Common& common) {
   Diagnostics notes;
   const auto facts = facts_of(a, notes);
-  if (!facts) return print(facts.error(), common), kSceneWrong;
+  if (!facts) {
+    if (const auto done = symbol_info(a, common)) return *done;
+    return print(facts.error(), common), kSceneWrong;
+  }
   if (!common.quiet) for (const Diagnostic& note : notes) print_message(to_text(note));
   write_standard_output(common.json ? json_text(*facts, a.copies) : people_text(*facts));
   return kDone;
