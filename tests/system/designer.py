@@ -100,6 +100,10 @@ with folder() as name:
             ended = run([BIN / 'orbc', 'diff', '--within', '1e-6', where / scene / f'program/scene.{ending}', where / scene / f'page/scene.{ending}'])
             check(ended.returncode == 0, f'{scene}: the .{ending} of the page is the program\'s {ended.stdout.decode()[:300]}')
 
+    dropped = run([*node, ROOT / 'tests/page/drops.mjs', where / 's.html', where / 'empty.html', where], cwd=ROOT, timeout=600)
+    print(dropped.stdout.decode())
+    check(dropped.returncode == 0, f'files dropped on the page {dropped.stderr.decode()[-2000:]}')
+
     by_hand = run([*node, ROOT / 'tests/page/designer.mjs', where / 's.html', where / 'empty.html'], cwd=ROOT, timeout=1500)
     print(by_hand.stdout.decode())
     check(by_hand.returncode == 0, f'the page by hand {by_hand.stderr.decode()[-2000:]}')

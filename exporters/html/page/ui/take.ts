@@ -85,22 +85,26 @@ async function takeMesh(file: File): Promise<boolean> {
   const told = reply.diagnostics.find((d) => d.severity === 'error') ?? reply.diagnostics[0];
   if (told) {
     const sentence = [told.message, told.hint].filter(Boolean).join('; ');
-    app.message.value = `${sentence[0]!.toUpperCase()}${sentence.slice(1)}.${reply.triangles === undefined ? ' Nothing was changed.' : ''}`;
+    app.message.value = `${sentence}.${reply.triangles === undefined ? ' Nothing was changed.' : ''}`;
   }
   return reply.triangles !== undefined;
 }
 
 const after = (text: string, splice: Splice | undefined): string => (splice ? applied(text, splice) : text);
 
-/** Meshes that the text does not name yet stand in the middle of the room, a quarter as large as it has space. */
+/** Meshes that the text does not name yet stand in the room, a quarter as large as it has space: the first in the middle, others around it,
+ *  since of two alike in one place the core would leave out one. */
 function placeMeshes(names: string[]): void {
   let next = app.text.value.trim() === '' ? 'orbc: 1\norbifold: "*22222"\n' : app.text.value;
   const height = app.scene.value?.room.height ?? 1;
   const size = Number((0.25 * Math.min(height, app.scene.value ? 2 * app.scene.value.room.inradius : 1)).toPrecision(2));
-  let placed = 0;
+  let placed = 0, number = app.scene.value?.objects.length ?? 0;
+  const around = Number((0.5 * (app.scene.value?.room.inradius ?? 0.5)).toPrecision(2));
   for (const name of names)
     if (!next.includes(name)) {
-      next = after(next, append(next, ['objects'], `{mesh: ${JSON.stringify(name)}, size: ${size}, at: centre}`));
+      const place = number === 0 ? 'centre' : `{polar: [${around}, ${(number * 137) % 360}deg]}`; // 137°: the golden angle
+      ++number;
+      next = after(next, append(next, ['objects'], `{mesh: ${JSON.stringify(name)}, size: ${size}, at: ${place}}`));
       ++placed;
     }
   if (placed === 0) return;
