@@ -82,7 +82,9 @@ with folder() as where:
         for s in units[1:]:
             check(same(traced[1], traced[s]), f'{kind}: the tracer sees the same at {s}')
             if povray:
-                check(same(drawn[1], drawn[s]), f'{kind}: POV-Ray draws the same at {s}')
+                # The file's coordinates are rounded to single precision in the author's unit, so that a ray may meet a texel an ulp beside.
+                off = np.abs(drawn[1].astype(int) - drawn[s].astype(int)).max()
+                check(drawn[1].shape == drawn[s].shape and off <= 1, f'{kind}: POV-Ray draws the same at {s}, within 1/255: {off}')
             for key in ('copies', 'triangles', 'vertices'):
                 check(reports[1][key] == reports[s][key], f'{kind}: as many {key} at {s}: {reports[1][key]} {reports[s][key]}')
             check(texels[1] == texels[s], f'{kind}: as many texels at {s}: {texels[1]} {texels[s]}')
