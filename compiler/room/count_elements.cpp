@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "compiler/base/check.h"
 
@@ -153,7 +154,8 @@ AmbientMap inverse_of(const AmbientMap& letter, const std::vector<AmbientMap>& l
 /// come before it (2d) or behind (2d + 1); and by which those that are shorter by one letter do.
 struct Beside {
   std::vector<int> same, shorter;
-  friend auto operator<=>(const Beside&, const Beside&) = default;
+  // Not <=>: the library of the page's compiler has none for lists.
+  friend bool operator<(const Beside& a, const Beside& b) { return std::tie(a.same, a.shorter) < std::tie(b.same, b.shorter); }
 };
 
 /// Removes double entries. A difference that is there before and behind counts as before.
