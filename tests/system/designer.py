@@ -104,6 +104,10 @@ with folder() as name:
     print(dropped.stdout.decode())
     check(dropped.returncode == 0, f'files dropped on the page {dropped.stderr.decode()[-2000:]}')
 
+    trouble = run([*node, ROOT / 'tests/page/trouble.mjs', where / 's.html', where / 'empty.html', where / 'nasty.html'], cwd=ROOT, timeout=600)
+    print(trouble.stdout.decode())
+    check(trouble.returncode == 0, f'the page in trouble {trouble.stderr.decode()[-2000:]}')
+
     by_hand = run([*node, ROOT / 'tests/page/designer.mjs', where / 's.html', where / 'empty.html'], cwd=ROOT, timeout=1500)
     print(by_hand.stdout.decode())
     check(by_hand.returncode == 0, f'the page by hand {by_hand.stderr.decode()[-2000:]}')

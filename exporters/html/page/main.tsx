@@ -3,7 +3,7 @@ import { effect } from '@preact/signals';
 import { Walk } from './room/walk';
 import { RoomView } from './room/view';
 import * as app from './state/app';
-import { sceneOf } from './state/share';
+import { linkOf, sceneOf } from './state/share';
 import { Bar, Compass, Difference, Empty, Exporting, Fatal, Help, Menus, Status, Tag, Toast } from './ui/Chrome';
 import { rememberPage } from './ui/files';
 import { Gizmos } from './ui/Gizmos';
@@ -90,7 +90,8 @@ async function start(): Promise<void> {
     e.preventDefault();
     app.fatal.value = 'The browser took the graphics card away (WebGL context lost).';
   });
-  draw(walk, () => location.reload());
+  // The text goes along in the address: what was changed would be lost where the page has a scene of its own.
+  draw(walk, () => void linkOf(app.text.value).then((link) => (history.replaceState(null, '', link), location.reload())));
   begin();
   const assets = JSON.parse(element('assets').textContent || '[]') as [string, string][];
   const [wasm, text, ...files] = await Promise.all([unpacked(element('wasm').textContent!), firstText(), ...assets.map(async ([name, data]) => [name, new Uint8Array(await unpacked(data))] as [string, Uint8Array])]);
