@@ -23,8 +23,12 @@ AdaptiveGrid spread_samples(const GridLevels& levels, const std::vector<GridSamp
 }
 
 scene::Color extrapolate_beyond_patch(const ColorGrid& grid, int i, int j) {
-  const scene::Color c = grid.color[grid.index(i - 1, j)] + grid.color[grid.index(i, j - 1)] + -1.0 * grid.color[grid.index(i - 1, j - 1)];
-  return {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};
+  const scene::Color a = grid.color[grid.index(i - 1, j)], b = grid.color[grid.index(i, j - 1)], c = grid.color[grid.index(i - 1, j - 1)];
+  // Where colours above white change fast, what white would give keeps the picture, which ends at white, from turning black.
+  const auto beyond = [](double p, double q, double r) {
+    return std::max({0.0, p + q - r, std::min(p, 1.0) + std::min(q, 1.0) - std::min(r, 1.0)});
+  };
+  return {beyond(a.r, b.r, c.r), beyond(a.g, b.g, c.g), beyond(a.b, b.b, c.b)};
 }
 
 AdaptiveGrid inpaint_excluded(AdaptiveGrid grid, const TexelPatch& patch, const GridStep& step) {

@@ -172,7 +172,7 @@ template <class Sampler>
   return grid;
 }
 
-/// The colour of a point beyond the long side of a single triangle: c₁ + c₂ − c₀ of the three points before it, within [0, 1], so that
+/// The colour of a point beyond the long side of a single triangle: c₁ + c₂ − c₀ of the three points before it, at least black, so that
 /// look-ups are linear up to that side.
 [[nodiscard]] scene::Color extrapolate_beyond_patch(const ColorGrid& grid, int i, int j);
 

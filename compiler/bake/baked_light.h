@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -19,6 +21,7 @@ class BakedLight {
   const image::Image& image_;
   PatchLocator locator_;
   std::vector<TexelRect> rects_;  ///< of all patches, in the order of the parts
+  std::map<std::size_t, const std::vector<std::array<float, 3>>*> above_white_;  ///< by patch among all: its linear colours
 };
 
 }  // namespace orbc::bake

@@ -107,6 +107,7 @@ Result<DiffuseBake> pack_texels(const std::vector<PartToPack>& parts, const Bake
     baked.patches.push_back(part.patches ? *part.patches : std::vector<TexelPatch>());
     const auto end = next + static_cast<std::ptrdiff_t>(baked.patches.back().size());
     baked.rects.emplace_back(next, end);
+    baked.above_white.push_back(part.patches ? part.texels->above_white : std::map<std::size_t, PatchTexels>());
     next = end;
     baked.atlas.uv.push_back(uv_of(baked.patches.back(), baked.rects.back(), packed->width, packed->height));
     if (part.patches) baked.counts.texels += part.texels->rgba.size();

@@ -19,6 +19,7 @@ struct DiffuseBake {
   BakeCounts counts;
   std::vector<std::vector<TexelPatch>> patches;  ///< per part
   std::vector<std::vector<TexelRect>> rects;     ///< of each patch: its place in the atlas
+  std::vector<std::map<std::size_t, PatchTexels>> above_white;  ///< per part, as in PartTexels
 };
 
 /// A part whose patches share no vertices. Its vertices stand patch by patch: corners 00, 10, 01 and, of pairs, 11.

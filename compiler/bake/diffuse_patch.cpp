@@ -22,6 +22,7 @@ namespace {
 
 using scene::Color;
 
+constexpr double kMostDimmed = 16;  // times white: mirrors that dim more show no more detail
 constexpr double kMaxDiffuseStep =
     5;  // steps of 1/255 between neighbouring points: where they differ more, the point between them is sampled
 constexpr double kRoughTolerance = 3;  // steps of 1/255: points of the finest grid that are more off their neighbours' mean are rough,
@@ -117,7 +118,12 @@ struct DirectSampler {
 
   [[nodiscard]] std::array<double, 3> encoded(const Color& irradiance) const {
     const Color c = part.lighting.exposure * light::outgoing_radiance(part.lighting, style.material, style.color, irradiance);
-    return {255 * image::encode_srgb(c.r), 255 * image::encode_srgb(c.g), 255 * image::encode_srgb(c.b)};
+    return {code(c.r), code(c.g), code(c.b)};
+  }
+  /// Steps of 1/255 of the picture. Above white, of one in a mirror that dims the colour to white: the code goes on with the logarithm.
+  static double code(double c) {
+    if (c <= 1) return 255 * image::encode_srgb(c);
+    return 255 + 255 * 1.055 / 2.4 * math::log(std::min(c, kMostDimmed));
   }
   /// Steps of 1/255 of the picture, in the channel that differs most.
   [[nodiscard]] double difference(const Color& a, const Color& b) const {

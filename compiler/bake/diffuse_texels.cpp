@@ -74,10 +74,11 @@ PartTexels shade_part(const RoomBake& bake, const LitRoom& lit, const std::vecto
     shaded[i] = shade_patch(part, patches[i], lit.direct[at], indirect.empty() ? nullptr : &indirect[at]);
   });
   PartTexels texels;
-  for (const PatchTexels& patch : shaded) {
+  for (PatchTexels& patch : shaded) {
     texels.rects.push_back({patch.width, patch.height});
     texels.rgba.insert(texels.rgba.end(), patch.rgba.begin(), patch.rgba.end());
     texels.rgb16.insert(texels.rgb16.end(), patch.rgb16.begin(), patch.rgb16.end());
+    if (!patch.light.empty()) texels.above_white.emplace(texels.rects.size() - 1, std::move(patch));
   }
   return texels;
 }

@@ -1,9 +1,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "compiler/bake/bake_options.h"
+#include "compiler/bake/patch_texels.h"
 #include "compiler/bake/patches.h"
 #include "compiler/bake/rect_packing.h"
 #include "compiler/base/executor.h"
@@ -23,6 +25,7 @@ struct PartTexels {
   std::vector<TexelRect> rects;                     ///< per patch: width and height
   std::vector<std::array<std::uint8_t, 4>> rgba;    ///< patch by patch, row by row
   std::vector<std::array<std::uint16_t, 3>> rgb16;  ///< parallel; empty unless BakeOptions::with_image16
+  std::map<std::size_t, PatchTexels> above_white;   ///< by patch: those with colours above white, with PatchTexels::light
 };
 
 /// The light that the surfaces of a room send to every eye alike. Nothing in it depends on an eye.

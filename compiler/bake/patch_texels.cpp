@@ -33,7 +33,7 @@ Color texel(const image::Image& image, int x, int y) {
 PatchTexels encode_texels(const place::Interior& interior, const TexelPatch& patch, const ColorGrid& colors, bool with_rgb16) {
   const place::PlacedMesh& mesh = interior.parts[patch.part];
   const bool has_alpha_mask = place::has_alpha_mask(interior.styles[mesh.style[patch.first]]);
-  PatchTexels texels{colors.width, colors.height, {}, {}};
+  PatchTexels texels{colors.width, colors.height, {}, {}, {}};
   texels.rgba.reserve(colors.color.size());
   for (int j = 0; j < colors.height; ++j)
     for (int i = 0; i < colors.width; ++i) {
@@ -43,7 +43,21 @@ PatchTexels encode_texels(const place::Interior& interior, const TexelPatch& pat
       texels.rgba.push_back({image::encode_srgb8(c.r), image::encode_srgb8(c.g), image::encode_srgb8(c.b), alpha});
       if (with_rgb16) texels.rgb16.push_back({image::encode_srgb16(c.r), image::encode_srgb16(c.g), image::encode_srgb16(c.b)});
     }
+  if (std::any_of(colors.color.begin(), colors.color.end(), [](const Color& c) { return max_channel(c) > kAboveWhite; }))
+    for (const Color& c : colors.color) texels.light.push_back({static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)});
   return texels;
+}
+
+PatchTexels encode_dimmed(const PatchTexels& texels, const Color& weight, bool with_rgb16) {
+  PatchTexels dimmed{texels.width, texels.height, {}, {}, {}};
+  dimmed.rgba.reserve(texels.light.size());
+  for (std::size_t i = 0; i < texels.light.size(); ++i) {
+    const auto& l = texels.light[i];
+    const Color c = weight * Color{static_cast<double>(l[0]), static_cast<double>(l[1]), static_cast<double>(l[2])};
+    dimmed.rgba.push_back({image::encode_srgb8(c.r), image::encode_srgb8(c.g), image::encode_srgb8(c.b), texels.rgba[i][3]});
+    if (with_rgb16) dimmed.rgb16.push_back({image::encode_srgb16(c.r), image::encode_srgb16(c.g), image::encode_srgb16(c.b)});
+  }
+  return dimmed;
 }
 
 image::Image assemble_image(const image::Image& base, const std::vector<TexelSource>& sources, const PackedRects& packed) {
@@ -72,12 +86,28 @@ image::Image16 assemble_image16(const image::Image16& base, const std::vector<Te
   return image;
 }
 
-Color color_in_rect(const image::Image& image, const TexelRect& rect, double u, double v) {
+namespace {
+
+/// Bilinear between texels. In: texel(column, row).
+template <class Texel>
+Color bilinear(const TexelRect& rect, double u, double v, const Texel& texel_at) {
   const double x = std::clamp(u, 0.0, 1.0) * (rect.width - 1), y = std::clamp(v, 0.0, 1.0) * (rect.height - 1);
   const int i = std::min(static_cast<int>(x), rect.width - 2), j = std::min(static_cast<int>(y), rect.height - 2);
   const double s = x - i, t = y - j;
-  const auto at = [&](int column, int row) { return texel(image, rect.x + column, rect.y + row); };
-  return (1 - t) * ((1 - s) * at(i, j) + s * at(i + 1, j)) + t * ((1 - s) * at(i, j + 1) + s * at(i + 1, j + 1));
+  return (1 - t) * ((1 - s) * texel_at(i, j) + s * texel_at(i + 1, j)) + t * ((1 - s) * texel_at(i, j + 1) + s * texel_at(i + 1, j + 1));
+}
+
+}  // namespace
+
+Color color_in_rect(const image::Image& image, const TexelRect& rect, double u, double v) {
+  return bilinear(rect, u, v, [&](int column, int row) { return texel(image, rect.x + column, rect.y + row); });
+}
+
+Color color_in_rect(const std::vector<std::array<float, 3>>& light, const TexelRect& rect, double u, double v) {
+  return bilinear(rect, u, v, [&](int column, int row) {
+    const auto& c = light[static_cast<std::size_t>(row) * static_cast<std::size_t>(rect.width) + static_cast<std::size_t>(column)];
+    return Color{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+  });
 }
 
 }  // namespace orbc::bake

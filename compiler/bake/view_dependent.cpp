@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "compiler/bake/patch_places.h"
 #include "compiler/bake/rect_packing.h"
 #include "compiler/bake/view_dependent_parts.h"
 #include "compiler/bake/view_patch.h"
@@ -60,6 +61,18 @@ BakedViewPart bake_part_of_copy(const ViewBakeInput& input, const ViewBakeOption
 struct BakedCopies {
   std::vector<BakedViewPart> parts;  ///< by copy, then by part
   ViewBakeCounts counts;
+  std::vector<PatchAboveWhite> above_white;
+
+  /// Takes out what is above white, unless no mirror dims it.
+  void take_above_white(BakedViewPart& part, const scene::Color& weight) {
+    if (weight == scene::Color{1, 1, 1}) return;
+    std::vector<ViewPatch> rest;
+    for (ViewPatch& patch : part.patches) {
+      if (patch.texels.light.empty()) rest.push_back(std::move(patch));
+      else above_white.push_back({part.copy, part.part, patch.patch, std::move(patch.texels)});
+    }
+    part.patches = std::move(rest);
+  }
 };
 BakedCopies bake_copies(const ViewBakeInput& input, const ViewBakeOptions& options, const Executor& executor, const Progress& progress) {
   BakedCopies all;
@@ -76,10 +89,14 @@ BakedCopies bake_copies(const ViewBakeInput& input, const ViewBakeOptions& optio
     for (BakedViewPart& part : batch) {
       if (part.patches.empty()) continue;
       for (const ViewPatch& patch : part.patches) all.counts.texels += patch.texels.rgba.size();
+      all.take_above_white(part, input.copies[part.copy].weight);
       all.parts.push_back(std::move(part));
     }
   }
   all.counts.copies_left_out = next < order.size() ? order.size() - next : 0;
+  std::stable_sort(all.above_white.begin(), all.above_white.end(), [](const PatchAboveWhite& a, const PatchAboveWhite& b) {
+    return std::tie(a.copy, a.part, a.patch) < std::tie(b.copy, b.part, b.patch);
+  });
   std::sort(all.parts.begin(), all.parts.end(),
             [](const BakedViewPart& a, const BakedViewPart& b) { return std::tie(a.copy, a.part) < std::tie(b.copy, b.part); });
   return all;
@@ -89,29 +106,13 @@ BakedCopies bake_copies(const ViewBakeInput& input, const ViewBakeOptions& optio
 CopyUv make_copy_uv(const BakedViewPart& part, const std::vector<TexelPatch>& patches, const std::vector<std::array<float, 2>>& shared,
                     const PackedRects& packed, std::size_t first_rect) {
   CopyUv places{part.copy, part.part, shared};
-  // The vertices of the atlas stand patch by patch: corners 00, 10, 01 and, of pairs, 11.
-  std::vector<std::size_t> first_vertex(patches.size() + 1, 0);
-  for (std::size_t i = 0; i < patches.size(); ++i) first_vertex[i + 1] = first_vertex[i] + (patches[i].second < 0 ? 3 : 4);
-  const auto place = [&](double x, double y) {
-    return std::array<float, 2>{static_cast<float>(x / packed.width), static_cast<float>(y / packed.height)};
-  };
+  const std::vector<std::size_t> first_vertex = first_vertices(patches);
   for (std::size_t k = 0; k < part.patches.size(); ++k) {
-    const TexelRect& rect = packed.rects[first_rect + k];
-    const double x0 = rect.x + 0.5, y0 = rect.y + 0.5, x1 = rect.x + rect.width - 0.5, y1 = rect.y + rect.height - 0.5;
-    const std::size_t patch = part.patches[k].patch, v = first_vertex[patch];
-    places.uv[v] = place(x0, y0);
-    places.uv[v + 1] = place(x1, y0);
-    places.uv[v + 2] = place(x0, y1);
-    if (patches[patch].second >= 0) places.uv[v + 3] = place(x1, y1);
+    const std::size_t patch = part.patches[k].patch;
+    place_patch(places.uv, patches[patch], first_vertex[patch], packed.rects[first_rect + k], packed);
+    places.patches.push_back(patch);
   }
   return places;
-}
-
-/// Places in a picture that has become larger to the right and below.
-std::vector<std::vector<std::array<float, 2>>> rescale_uv(std::vector<std::vector<std::array<float, 2>>> uv, double u, double v) {
-  for (auto& part : uv)
-    for (auto& at : part) at = {static_cast<float>(u * static_cast<double>(at[0])), static_cast<float>(v * static_cast<double>(at[1]))};
-  return uv;
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ ViewBakeOptions view_bake_options(const scene::BakeSpec& spec) {
 
 ViewBake bake_view_dependent(const ViewBakeInput& input, const ViewBakeOptions& options, const Executor& executor,
                              const Progress& progress) {
-  const BakedCopies baked = bake_copies(input, options, executor, progress);
+  BakedCopies baked = bake_copies(input, options, executor, progress);
   const Atlas& atlas = input.diffuse.atlas;
   std::vector<TexelRect> rects;
   std::vector<TexelSource> texels;
@@ -143,14 +144,15 @@ ViewBake bake_view_dependent(const ViewBakeInput& input, const ViewBakeOptions& 
     }
   const auto packed = rects.empty() ? std::nullopt : pack_below(std::move(rects), atlas.image.width, atlas.image.height, options.max_side);
   if (!packed) {
-    ViewBake unchanged{atlas.image, atlas.image16, atlas.uv, {}, baked.counts};
+    ViewBake unchanged{atlas.image, atlas.image16, atlas.uv, {}, baked.counts, 2, std::move(baked.above_white)};
     unchanged.counts.copies_left_out = texels.empty() ? 0 : input.copies.size();
     return unchanged;
   }
-  ViewBake view{assemble_image(atlas.image, texels, *packed), {}, {}, {}, baked.counts};
+  ViewBake view{assemble_image(atlas.image, texels, *packed), {}, {}, {}, baked.counts, 2, std::move(baked.above_white)};
   if (!atlas.image16.rgb.empty()) view.image16 = assemble_image16(atlas.image16, texels, *packed);
-  view.uv = rescale_uv(atlas.uv, static_cast<double>(atlas.image.width) / packed->width,
-                       static_cast<double>(atlas.image.height) / packed->height);
+  for (const auto& uv : atlas.uv)
+    view.uv.push_back(
+        rescale_uv(uv, static_cast<double>(atlas.image.width) / packed->width, static_cast<double>(atlas.image.height) / packed->height));
   std::size_t first_rect = 0;
   for (const BakedViewPart& part : baked.parts) {
     if (view.copy_uv.empty() || view.copy_uv.back().copy != part.copy) ++view.counts.copies;

@@ -51,6 +51,13 @@ struct ViewBakeInput {
 struct CopyUv {
   std::size_t copy = 0, part = 0;
   std::vector<std::array<float, 2>> uv;  ///< per vertex of the part of the atlas
+  std::vector<std::size_t> patches = {};  ///< ascending: those with texels of their own
+};
+
+/// The texels of a patch in one copy that are above white where no mirror has dimmed them yet.
+struct PatchAboveWhite {
+  std::size_t copy = 0, part = 0, patch = 0;
+  PatchTexels texels;
 };
 
 struct ViewBakeCounts {
@@ -66,6 +73,8 @@ struct ViewBake {
   std::vector<std::vector<std::array<float, 2>>> uv;  ///< of the diffuse bake, in the larger picture: per part, per vertex
   std::vector<CopyUv> copy_uv;                        ///< by copy, then by part
   ViewBakeCounts counts;
+  double first_dimmed_v = 2;  ///< texels from here on are dimmed by mirrors already; above 1: none
+  std::vector<PatchAboveWhite> above_white;  ///< by copy, then by part: not in the picture yet (add_dimmed_light)
 };
 
 /// Whether a room has surfaces that look different from every side: mirror, glass and metal, and glossy ones where there are lamps.

@@ -103,7 +103,7 @@ struct ViewSampler {
   [[nodiscard]] double difference(const Color& a, const Color& b) const {
     if (a == b) return 0;
     const Color& weight = part.copy.weight;  // what is faint in the picture needs no detail
-    const auto code = [](double w, double c) { return 255 * image::encode_srgb(std::clamp(w * std::min(c, 1.0), 0.0, 1.0)); };
+    const auto code = [](double w, double c) { return 255 * image::encode_srgb(std::clamp(w * c, 0.0, 1.0)); };
     return std::max({std::fabs(code(weight.r, a.r) - code(weight.r, b.r)), std::fabs(code(weight.g, a.g) - code(weight.g, b.g)),
                      std::fabs(code(weight.b, a.b) - code(weight.b, b.b))});
   }
@@ -157,7 +157,10 @@ GridLevels levels_for(const std::array<double, 2>& pixels, const ViewBakeOptions
 /// The diffuse colour of a patch at (u, v), to which highlights are added; black under specular surfaces.
 Color diffuse_at(const ViewPart& part, const ViewStyle& style, std::size_t patch, double u, double v) {
   if (style.is_specular) return {};
-  return color_in_rect(part.input.diffuse.atlas.image, part.input.diffuse.rects[part.part][patch], u, v);
+  const TexelRect& rect = part.input.diffuse.rects[part.part][patch];
+  const auto& above_white = part.input.diffuse.above_white[part.part];
+  if (const auto above = above_white.find(patch); above != above_white.end()) return color_in_rect(above->second.light, rect, u, v);
+  return color_in_rect(part.input.diffuse.atlas.image, rect, u, v);
 }
 
 /// Whether any coarse sample shows a highlight.
@@ -249,7 +252,7 @@ std::optional<ColorGrid> add_diffuse(const ViewSampler& sampler, std::size_t num
       const Color diffuse = diffuse_at(sampler.part, sampler.style, number, at.u(), at.v());
       const Color all = diffuse + highlights.color[sum.index(i, j)];
       is_visible = is_visible || sampler.difference(all, diffuse) > sampler.part.options.tolerance;
-      sum.color[sum.index(i, j)] = {std::min(all.r, 1.0), std::min(all.g, 1.0), std::min(all.b, 1.0)};
+      sum.color[sum.index(i, j)] = all;
     }
   if (!is_visible) return std::nullopt;
   while (sum.width > 2 && is_linear(sampler, sum, true)) sum = halve(sum, true);

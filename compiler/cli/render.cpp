@@ -95,6 +95,15 @@ int render_elsewhere(const driver::PreparedScene& scene, const RenderArguments& 
   return kDone;
 }
 
+/// What to say of a picture in which much is cut off at white.
+Diagnostics clipped_note(const render::Film& film, double exposure) {
+  constexpr double kMuch = 0.01;
+  const double share = render::clipped_share(film, exposure);
+  if (share <= kMuch) return {};
+  return {make_note("render.clipped", fmt::format("{:.2g} % of the pixels are brighter than white and are cut off there", 100 * share),
+                    "a lower `exposure` shows them; .exr keeps them as they are")};
+}
+
 std::string bytes_of(const render::Film& film, const RenderArguments& a, PictureFormat format, double exposure) {
   return format == PictureFormat::exr ? image_io::encode_exr(render::to_float_image(film))
                                       : encoded(render::to_image(film, pass_of(a.pass), exposure), format);
@@ -110,7 +119,13 @@ int render_here(const driver::PreparedScene& scene, const RenderArguments& a, Pi
   nlohmann::ordered_json result = result_of(a, format, scene.loaded().eye);
   result["pass"] = format == PictureFormat::exr ? "all" : a.pass;
   if (!film.error.empty()) result["noise"] = render::rms_noise(film, exposure);
-  print_result(std::move(result), scene.loaded().notes, common);
+  Diagnostics notes = scene.loaded().notes;
+  if (format != PictureFormat::exr && a.pass == "color") {
+    const Diagnostics clipped = clipped_note(film, exposure);
+    print(clipped, common);
+    append(notes, clipped);
+  }
+  print_result(std::move(result), notes, common);
   if (!common.quiet)
     print_message(fmt::format("{}: {}x{}, {} samples a pixel, traced{}\n", shown(a.compile.output), film.width, film.height, a.samples,
                               noise_text(film, exposure)));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "compiler/bake/dimmed_light.h"
 #include "compiler/driver/specular_query.h"
 
 namespace orbc::driver {
@@ -35,7 +36,7 @@ Result<Appearance> plain_appearance(const Job& job, std::vector<place::PlacedMes
   const Result<DrawnSurfaces>& surfaces = job.scene.surfaces(job.run);
   if (!surfaces) return surfaces.error();
   const bake::Atlas& plain = surfaces->plain;
-  if (panels.empty()) return Appearance{plain.image, plain.image16, plain.uv, {}, {}, {}, {}};
+  if (panels.empty()) return Appearance{plain.image, plain.image16, plain.uv, {}, {}, {}, {}, 2};
   const scene::Scene& scene = job.scene.scene();
   place::Interior interior = with_impostor_styles(job.scene.lods(job.run).interior, endings);
   const auto meshes = static_cast<std::ptrdiff_t>(interior.parts.size());
@@ -43,7 +44,7 @@ Result<Appearance> plain_appearance(const Job& job, std::vector<place::PlacedMes
   auto atlas = bake::make_atlas(with_exposure(std::move(interior), scene.exposure),
                                 {job.scene.options().max_atlas_side, scene.bake.atlas != scene::AtlasFormat::srgb8});
   if (!atlas) return atlas.error();
-  Appearance appearance{std::move(atlas->image), std::move(atlas->image16), std::move(atlas->uv), {}, {}, {}, {}};
+  Appearance appearance{std::move(atlas->image), std::move(atlas->image16), std::move(atlas->uv), {}, {}, {}, {}, 2};
   appearance.panels.assign(std::make_move_iterator(atlas->room.parts.begin() + meshes), std::make_move_iterator(atlas->room.parts.end()));
   appearance.panel_uv.assign(std::make_move_iterator(appearance.uv.begin() + meshes), std::make_move_iterator(appearance.uv.end()));
   appearance.uv.resize(static_cast<std::size_t>(meshes));
@@ -111,18 +112,20 @@ Result<Appearance> baked_appearance(const Job& job, const Detail& detail, std::v
   for (std::size_t p = 0; p < panels.size(); ++p) parts.push_back({&panels[p].name, &drawn.patches[p], &panel_texels.parts[p]});
   auto baked = bake::pack_texels(parts, bake_options(job.scene));
   if (!baked) return baked.error();
+  auto for_eye = bake_for_eye(job, detail, *baked);
+  bake::ViewBake view =
+      for_eye ? std::move(*for_eye)
+              : bake::ViewBake{std::move(baked->atlas.image), std::move(baked->atlas.image16), std::move(baked->atlas.uv), {}, {}, 2, {}};
+  bake::ViewBakeOptions options;
+  options.max_side = job.scene.options().max_atlas_side;
+  view = bake::add_dimmed_light(std::move(view), *baked, detail.copies, drawn_parts(lods, detail.selection), options);
   Appearance appearance;
-  if (auto view = bake_for_eye(job, detail, *baked)) {
-    appearance.image = std::move(view->image);
-    appearance.image16 = std::move(view->image16);
-    appearance.uv = std::move(view->uv);
-    appearance.copy_uv = std::move(view->copy_uv);
-    appearance.view_counts = view->counts;
-  } else {
-    appearance.image = std::move(baked->atlas.image);
-    appearance.image16 = std::move(baked->atlas.image16);
-    appearance.uv = std::move(baked->atlas.uv);
-  }
+  appearance.image = std::move(view.image);
+  appearance.image16 = std::move(view.image16);
+  appearance.uv = std::move(view.uv);
+  appearance.copy_uv = std::move(view.copy_uv);
+  appearance.view_counts = view.counts;
+  appearance.first_dimmed_v = view.first_dimmed_v;
   appearance.panels = std::move(drawn.meshes);
   const auto first_panel = appearance.uv.begin() + static_cast<std::ptrdiff_t>(used.size());
   appearance.panel_uv.assign(std::make_move_iterator(first_panel), std::make_move_iterator(appearance.uv.end()));

@@ -15,6 +15,7 @@ struct Appearance {
   std::vector<bend::Uv> panel_uv;         ///< parallel
   std::vector<bake::CopyUv> copy_uv;      ///< places of single copies, instead of those in `uv`; by copy, then by part
   bake::ViewBakeCounts view_counts;
+  double first_dimmed_v = 2;  ///< as in bake::ViewBake
 };
 
 /// Gathers the atlas of a picture: the diffuse bake of what is drawn, or plain colors; the colors of impostors; highlights for the eye.

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "compiler/driver/dimmed_triangles.h"
 #include "compiler/driver/renderer_scale.h"
 #include "compiler/driver/unit_of_length.h"
 #include "compiler/native_lights/lamps.h"
@@ -159,7 +160,7 @@ Result<Compiled> assemble(const Job& job, Drawing drawing) {
     drawing.bent = std::move(shaded.cover);
     normals = std::move(shaded.normals);
   }
-  compiled.product = product_of(job, drawing);
+  compiled.product = split_dimmed_triangles(product_of(job, drawing), drawing.appearance.first_dimmed_v);
   compiled.product.native = std::move(native);
   compiled.product.normals = std::move(normals);
   compiled.product = in_author_unit(std::move(compiled.product), job.scene.loaded().unit_of_length);

@@ -30,7 +30,8 @@ struct ProductCopy {
   native_lights::Shading shading = native_lights::Shading::lit;
   /// Products by object: the object of these triangles, an index into Product::objects
   std::optional<std::size_t> object = std::nullopt;
-  /// Products by object: the earlier entry for the same copy, of another object
+  /// The earlier entry for the same copy: of another object, or of what its weight dims. Light above white is dimmed in the atlas already,
+  /// and its triangles are an entry with the weight 1
   std::optional<std::size_t> duplicate_of = std::nullopt;
 };
 

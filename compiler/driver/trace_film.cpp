@@ -93,9 +93,9 @@ void take_changes(const render::Film& film, const render::Film& before, const st
                   std::vector<double>& changes) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     if (!drawn[i]) continue;
-    changes[i] = shown_difference(film.color[i], before.color[i], exposure);
+    changes[i] = shown_difference(film.shown[i], before.shown[i], exposure);
     if (film.error.empty()) continue;
-    const scene::Color& c = film.color[i];
+    const scene::Color& c = film.shown[i];
     const double e = film.error[i];
     changes[i] = std::max(changes[i], shown_difference(c, {c.r + e, c.g + e, c.b + e}, exposure));
   }

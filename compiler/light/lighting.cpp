@@ -416,10 +416,8 @@ Color estimate_irradiance(const LightingContext& lighting, const surface::Shadin
 }
 
 Color outgoing_radiance(const LightingContext& lighting, const scene::Material& material, const Color& albedo, const Color& e) {
-  Color out = material.kind == scene::MaterialKind::emissive ? material.emission * albedo
-                                                             : albedo * (lighting.ambient + (1 / std::numbers::pi) * e);
-  const double white = white_level(lighting);
-  return {std::min(out.r, white), std::min(out.g, white), std::min(out.b, white)};
+  return material.kind == scene::MaterialKind::emissive ? material.emission * albedo
+                                                        : albedo * (lighting.ambient + (1 / std::numbers::pi) * e);
 }
 
 double white_level(const LightingContext& lighting) { return 1 / std::max(lighting.exposure, 1e-300); }

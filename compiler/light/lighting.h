@@ -119,10 +119,10 @@ struct ExpectedImages {
 
 /// The radiance of a matte surface: albedo × (ambient + E/π), or emission × albedo if it is emissive. E = π shows as white at exposure 1.
 /// In:    the irradiance E from lamps, and π times the indirect light if there is any.
-/// Makes: at most white after exposure, since textures of copies hold no more, and the tracer must agree with them.
+/// Makes: linear light without an upper bound: what is above white may be dimmed by mirrors.
 [[nodiscard]] scene::Color outgoing_radiance(const LightingContext& lighting, const scene::Material& material, const scene::Color& albedo,
                                              const scene::Color& irradiance);
-/// The radiance that shows as white: the most that any surface has.
+/// The radiance that shows as white: the most that pictures show.
 [[nodiscard]] double white_level(const LightingContext& lighting);
 
 /// The shading point that a ray has hit.

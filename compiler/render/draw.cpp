@@ -31,20 +31,24 @@ void record(const RayResult& result, std::size_t pixel, Film& film) {
 
 /// Sums over a pixel's samples, in their order.
 struct PixelSums {
-  scene::Color radiance, white_bound;
+  scene::Color radiance;
+  ShownRadiance shown;
   struct Group {
     scene::Color indirect;
     int count = 0;
   };
   std::array<Group, PixelSampler::kGroups> groups;  ///< of samples that share a lattice
-  void add(const RayResult& result, int group) {
+  /// In: the radiance that shows as white.
+  void add(const RayResult& result, double white, int group) {
     radiance = radiance + result.radiance;
-    white_bound = white_bound + result.white_bound;
+    const ShownRadiance own_shown = shown_radiance(result, white);
+    shown = {shown.radiance + own_shown.radiance, shown.bound + own_shown.bound};
     Group& own = groups[static_cast<std::size_t>(group)];
     own.indirect = own.indirect + result.indirect;
     ++own.count;
   }
-  [[nodiscard]] scene::Color mean(double n) const { return component_min((1 / n) * radiance, (1 / n) * white_bound); }
+  [[nodiscard]] scene::Color mean(double n) const { return (1 / n) * radiance; }
+  [[nodiscard]] scene::Color shown_mean(double n) const { return component_min((1 / n) * shown.radiance, (1 / n) * shown.bound); }
   /// Standard error of the mean in the noisiest channel, from the spread between groups; of a single sample its estimate itself.
   [[nodiscard]] float error(double n) const {
     scene::Color indirect, squares;
@@ -57,11 +61,11 @@ struct PixelSums {
       squares = squares + off * off;
       ++count;
     }
-    // A channel that is clamped to white shows no noise.
+    // A channel that is cut off at white shows no noise.
     const auto variance = [&](double sum, double all, double bound) { return all >= bound ? 0 : sum / (count * (count - 1)); };
-    return static_cast<float>(
-        std::sqrt(scene::max_channel({variance(squares.r, radiance.r, white_bound.r), variance(squares.g, radiance.g, white_bound.g),
-                                      variance(squares.b, radiance.b, white_bound.b)})));
+    return static_cast<float>(std::sqrt(
+        scene::max_channel({variance(squares.r, shown.radiance.r, shown.bound.r), variance(squares.g, shown.radiance.g, shown.bound.g),
+                            variance(squares.b, shown.radiance.b, shown.bound.b)})));
   }
 };
 
@@ -98,7 +102,7 @@ PixelSampler sampler_for(const DrawOptions& options, std::size_t pixel, int samp
 void draw_pixels(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options,
                  const std::vector<std::array<double, 2>>& samples, const std::vector<Pixel>& pixels, Film& film) {
   const std::size_t count = samples.size(), all = pixels.size() * count;
-  const double n = static_cast<double>(count);
+  const double n = static_cast<double>(count), white = options.lighting ? light::white_level(*options.lighting) : options.max_radiance;
   const geometry::Point eye_at = eye.room_from_eye * geometry::Point();
   std::vector<trace::Ray> rays;
   rays.reserve(std::min(all, kRaysPerStream));
@@ -127,9 +131,10 @@ void draw_pixels(const trace::TraceScene& scene, const place::Camera& eye, const
         sums = {};
         record(result, pixel, film);
       }
-      sums.add(result, PixelSampler::group_of(static_cast<int>(sample), static_cast<int>(count)));
+      sums.add(result, white, PixelSampler::group_of(static_cast<int>(sample), static_cast<int>(count)));
       if (sample + 1 < count) continue;
       film.color[pixel] = sums.mean(n);
+      film.shown[pixel] = sums.shown_mean(n);
       if (!film.error.empty()) film.error[pixel] = sums.error(n);
     }
   }
@@ -163,6 +168,7 @@ std::vector<std::array<double, 2>> sample_points(int samples) {
 void redraw(const trace::TraceScene& scene, const place::Camera& eye, const DrawOptions& options, const std::vector<bool>& wanted,
             Film& film, const Executor& executor, const Progress& progress) {
   const std::vector<std::array<double, 2>> samples = sample_points(options.samples);
+  film.shown.resize(film.color.size());
   const int columns = (eye.width + kTileSide - 1) / kTileSide, rows = (eye.height + kTileSide - 1) / kTileSide;
   const std::uint64_t total = static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), true)) * samples.size();
   std::atomic<std::uint64_t> done{0};

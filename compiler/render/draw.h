@@ -27,7 +27,7 @@ struct DrawOptions {
   const bake::BakedLight* baked = nullptr;            ///< if given, matte light is looked up here
   const bake::IrradianceCache* irradiance = nullptr;  ///< if given, the light of lamps on matte surfaces is looked up here
   scene::Color background;                            ///< radiance where a path is cut off
-  double max_radiance = std::numeric_limits<double>::infinity();  ///< of surfaces in scenes without lamps (else: light::white_level)
+  double max_radiance = std::numeric_limits<double>::infinity();  ///< of surfaces in scenes without lamps, whose colours are no light
 };
 
 /// Draws the reference picture: the rays of every pixel, followed as geodesics over real mirrors. It never unfolds the room and never bends

@@ -52,12 +52,19 @@ Film make_film(int width, int height) {
 image::Image to_image(const Film& film, double exposure) {
   image::Image image{film.width, film.height, std::vector<std::uint8_t>(film.color.size() * 4, 255)};
   for (std::size_t i = 0; i < film.color.size(); ++i) {
-    const scene::Color c = exposure * film.color[i];
+    const scene::Color c = exposure * (film.shown.empty() ? film.color : film.shown)[i];
     image.rgba[4 * i] = image::encode_srgb8(c.r);
     image.rgba[4 * i + 1] = image::encode_srgb8(c.g);
     image.rgba[4 * i + 2] = image::encode_srgb8(c.b);
   }
   return image;
+}
+
+double clipped_share(const Film& film, double exposure) {
+  constexpr double kWhite = 1 + 1.0 / 512;  // what rounding adds to white is not above it
+  const auto clipped =
+      std::count_if(film.color.begin(), film.color.end(), [&](const scene::Color& c) { return exposure * max_channel(c) > kWhite; });
+  return static_cast<double>(clipped) / std::max(1.0, static_cast<double>(film.color.size()));
 }
 
 image::Image to_image(const Film& film, Pass pass, double exposure) {

@@ -51,7 +51,6 @@ struct RayShader {
 
   void add(const Color& radiance) {
     result.radiance = result.radiance + sample_share * radiance;
-    result.white_bound = result.white_bound + sample_share * radiance;
   }
 
   // In: the path up to the branch; what the branch can hit.
@@ -86,24 +85,18 @@ struct RayShader {
                  double share) {
     const light::LightingContext& lighting = *options.lighting;
     const Color weight = share * path.throughput;
-    // The directions sampled for a metal are not clamped one by one.
-    if (material.kind == scene::MaterialKind::emissive)
-      return add(weight * (metal_depth > 0 ? material.emission * color : light::outgoing_radiance(lighting, material, color, {})));
+    if (material.kind == scene::MaterialKind::emissive) return add(weight * light::outgoing_radiance(lighting, material, color, {}));
     const surface::ShadingPoint at = light::shading_point(lighting, *scene.interior, point, path.hit);
-    const double white = light::white_level(lighting);
     const auto baked = options.baked ? options.baked->at(point, path.hit) : std::nullopt;
-    Color out = baked ? white * *baked : light::outgoing_radiance(lighting, material, color, direct_irradiance(path.hit, point, at));
+    Color out = baked ? light::white_level(lighting) * *baked
+                      : light::outgoing_radiance(lighting, material, color, direct_irradiance(path.hit, point, at));
     if (options.highlights && material.kind == scene::MaterialKind::glossy)
       out = out + light::highlight(lighting, at, -point.incoming, material, color, sample_share * std::min(1.0, max_channel(weight)));
-    out = clamped(out, white);
     if (baked || lighting.options.indirect_bounces == 0) return add(weight * out);
-    // Estimates that exceed white are not clamped one by one: their mean would become too dark. Sums::mean clamps it.
     const int paths = std::max(1, static_cast<int>(sample_share * options.paths));
     const Color indirect = color * indirect_irradiance(*scene.interior, lighting, at, sampler, paths);
-    const Color kept{out.r < white ? indirect.r : 0, out.g < white ? indirect.g : 0, out.b < white ? indirect.b : 0};
-    result.radiance = result.radiance + sample_share * weight * (out + kept);
-    result.indirect = result.indirect + sample_share * weight * kept;
-    result.white_bound = result.white_bound + sample_share * white * weight;
+    result.radiance = result.radiance + sample_share * weight * (out + indirect);
+    result.indirect = result.indirect + sample_share * weight * indirect;
   }
 
   // Whether a metal mirrors the room. A metal seen in metals shows its albedo if it is faint or the fourth. Its inside is hit by rounding
@@ -113,16 +106,14 @@ struct RayShader {
   }
 
   // The room in a rough metal: the mean over sampled directions, which continue the stratification of the pixel; and the lamps, whose
-  // bodies the directions must not hit, as highlights. The sum is clamped to white, single directions are not.
+  // bodies the directions must not hit, as highlights.
   void shade_metal(const trace::Path& path, const trace::SurfacePoint& point, const scene::Material& material, const Color& color,
                    double share, int depth) {
     const light::LightingContext& lighting = *options.lighting;
     const geometry::Space space = scene.prism.space;
-    const Color f0 = surface::f0(material, color), weight = sample_share * share * path.throughput,
-                white = light::white_level(lighting) * weight;
+    const Color f0 = surface::f0(material, color);
     const surface::ShadingPoint at = light::shading_point(lighting, *scene.interior, point, path.hit);
-    const Color lamps = component_min(weight * light::highlight(lighting, at, -point.incoming, material, color), white);
-    const Color radiance_before = result.radiance, bound_before = result.white_bound;
+    add(share * path.throughput * light::highlight(lighting, at, -point.incoming, material, color));
     const trace::SurfacePoint smooth = smoothed(point, path.hit);
     const light::SampleStratum stratum = sampler.stratum;
     const int lattice_index = sampler.lattice_index;
@@ -146,10 +137,6 @@ struct RayShader {
     --metal_depth;
     sampler.stratum = stratum;
     sampler.lattice_index = lattice_index;
-    const Color from_room = result.radiance + -1.0 * radiance_before;
-    result.radiance = radiance_before + lamps +
-                      Color{lamps.r < white.r ? from_room.r : 0, lamps.g < white.g ? from_room.g : 0, lamps.b < white.b ? from_room.b : 0};
-    result.white_bound = bound_before + white;
   }
 
   void shade_glass(const trace::Path& path, const trace::SurfacePoint& point, const Color& color, double index, double share, int depth) {
@@ -198,6 +185,13 @@ struct RayShader {
 };
 
 }  // namespace
+
+ShownRadiance shown_radiance(const RayResult& result, double white) {
+  const Color cut = clamped(result.radiance, white);
+  return {{result.indirect.r > 0 ? result.radiance.r : cut.r, result.indirect.g > 0 ? result.radiance.g : cut.g,
+           result.indirect.b > 0 ? result.radiance.b : cut.b},
+          {result.indirect.r > 0 ? white : cut.r, result.indirect.g > 0 ? white : cut.g, result.indirect.b > 0 ? white : cut.b}};
+}
 
 trace::FollowOptions follow_options(const DrawOptions& options) {
   trace::FollowOptions follow;

@@ -113,4 +113,10 @@ with folder() as name:
     for words in (['--noise', '0'], ['--noise', '2'], ['--noise', '1/0'], ['--noise', 'little'], ['--noise', '1/255/2'], ['--noise', '1/255', '--pass', 'depth']):
         done = run([ORBC, 'trace', scene, '-o', where / 'never.png', *words])
         check(done.returncode == 2 and not (where / 'never.png').exists(), f'{" ".join(words)} is refused: {done.stderr.decode().strip()}')
+    # What is above white is told of, once: with more than 1 % of the pixels, in pictures of 8 bits.
+    bright = where / 'bright.yaml'
+    bright.write_text(SCENE + 'lights: [{kind: point, at: {z: 0.5}, power: 400}]\n')
+    for output, exposure, told in (('bright.png', '1', 1), ('bright.png', '0.0001', 0), ('bright.exr', '1', 0)):
+        done = run([ORBC, 'trace', bright, '-o', where / output, '--set', f'exposure={exposure}'])
+        check(done.returncode == 0 and done.stderr.decode().count('render.clipped') == told, f'{output} at exposure {exposure}: {told} notes of what is cut off {done.stderr.decode()}')
 finish()

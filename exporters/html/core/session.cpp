@@ -97,7 +97,8 @@ std::vector<std::uint8_t> refine(OpenScene& scene, RefinedPicture& picture, cons
     const std::size_t at = places[i];
     const render::PixelSampler sampler(1, at, index, samples);
     const render::RayResult found = render::radiance(tracer, std::move(paths[i]), options, sampler);
-    picture.sums[at] = picture.sums[at] + found.radiance;
+    const double white = options.lighting ? light::white_level(*options.lighting) : options.max_radiance;
+    picture.sums[at] = picture.sums[at] + render::shown_radiance(found, white).radiance;
     const double share = exposure / ++picture.counts[at];
     for (const double c : {picture.sums[at].r, picture.sums[at].g, picture.sums[at].b})
       pixels.push_back(static_cast<std::uint8_t>(std::lround(255 * image::encode_srgb(std::clamp(share * c, 0.0, 1.0)))));
