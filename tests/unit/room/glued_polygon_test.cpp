@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "compiler/geometry/chart.h"
+#include "compiler/geometry/line.h"
 #include "compiler/notation/growth.h"
 #include "compiler/notation/parse.h"
 #include "compiler/room/count_elements.h"
