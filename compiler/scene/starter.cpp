@@ -152,8 +152,8 @@ std::string starter_scene(const StarterRoom& room) {
       arg("column_at", polar(frame, kColumn)), arg("marble_cell", shown(std::max(0.22 * r, kMinCell))),
       arg("knot_radius", shown(0.11 * r)), arg("knot_tube", shown(0.042 * r)), arg("ball_radius", shown(0.13 * r)),
       arg("ball_at", polar(frame, kBall)), arg("ball_distance", shown(0.5 * r)), arg("mesh_size", shown(0.4 * r)),
-      arg("lamp_at", polar(frame, kLamp)), arg("lamp_z", shown(0.78 * height)), arg("lamp_radius", shown(0.06 * r)),
-      arg("power", shown(18 * r * r)), arg("eye_at", polar(frame, kEye)), arg("eye_z", shown(0.44 * height)),
+      arg("lamp_at", polar(frame, kLamp)), arg("lamp_z", shown(0.56 * height)), arg("lamp_radius", shown(0.06 * r)),
+      arg("power", shown(15 * r * r)), arg("eye_at", polar(frame, kEye)), arg("eye_z", shown(0.44 * height)),
       arg("goal_at", polar(frame, kGoal)), arg("goal_z", shown(0.37 * height)), arg("bounces", bounces)));
 }
 
