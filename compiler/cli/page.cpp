@@ -26,7 +26,8 @@ Result<std::string> empty_page() {
     std::ifstream file(*path, std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(file), {}};
   }
-  return make_error("html.no-page", "the designer's page has not been built", "scripts/web builds it; packages of orbc bring it along");
+  return make_error("html.no-page", "the designer's page has not been built",
+                    "scripts/web builds it; a package that is made after that has it");
 }
 
 /// The text of a scene: of every scene that was read, some span has it.

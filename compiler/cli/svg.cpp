@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "compiler/cli/commands.h"
 #include "compiler/cli/expanded_star.h"
@@ -18,8 +19,11 @@
 #include "compiler/notation/euler.h"
 #include "compiler/notation/parse.h"
 #include "compiler/notation/print.h"
+#include "compiler/notation/symbol.h"
+#include "compiler/room/glued_polygon.h"
 #include "compiler/room/realise.h"
 #include "compiler/scene/color.h"
+#include "exporters/svg/draw_glued.h"
 #include "exporters/svg/draw_room.h"
 
 namespace orbc::cli {
@@ -172,12 +176,52 @@ void check_model(const SvgArguments& a, const room::Room& room) {
 
 }  // namespace
 
+namespace {
+
+/// Writes a drawing, and says so.
+void write_drawing(const SvgArguments& a, const Common& common, const std::string& notation, const svg::RoomDrawing& drawing,
+                   const Diagnostics& notes) {
+  if (!common.quiet) print_message(to_text(notes));
+  write_output(a.output, drawing.svg);
+  if (common.json)
+    write_standard_output(
+        nlohmann::ordered_json{
+            {"output", a.output}, {"notation", notation}, {"copies", drawing.copies}, {"width", drawing.width}, {"height", drawing.height}}
+            .dump(2) +
+        "\n");
+  else if (!common.quiet && a.output != "-") print_message(fmt::format("{}: {} copies of {}\n", a.output, drawing.copies, notation));
+}
+
+/// Draws an orbifold that is not closed by mirrors alone. Nothing if the text is no such symbol.
+std::optional<int> draw_symbol(const SvgArguments& a, const Common& common) {
+  const auto symbol = notation::parse_symbol(a.notation);
+  if (!symbol || notation::is_kaleidoscopic(*symbol) || notation::to_text(*symbol) == "1") return std::nullopt;
+  const SourceSpan span{std::make_shared<SourceText>(SourceText{"notation", a.notation}), 1, 1, a.notation.size()};
+  const auto polygon = room::glued_polygon(*symbol);
+  if (!polygon) return print(located(polygon.error(), span), common), kSceneWrong;
+  if (a.model == "hyperboloid" || (a.model == "half-plane" && polygon->space != geometry::Space::hyperbolic) ||
+      (a.model == "plane" && polygon->space != geometry::Space::euclidean))
+    throw UsageError(
+        fmt::format("--model {} does not show {}, which is {}; use disk or klein", a.model, a.notation, geometry::name(polygon->space)));
+  if (a.cuts || a.shape != "tangential") throw UsageError("cuts and shapes belong to rooms closed by mirrors alone");
+  auto picture = picture_of(a);
+  if (!picture) return print(picture.error(), common), kSceneWrong;
+  for (const std::string& text : a.geodesics) picture->look.geodesics.push_back(geodesic_of(text, polygon->space));
+  check_outputs({a.output});
+  refuse_inputs({a.output}, {a.motif});
+  write_drawing(a, common, notation::to_text(*symbol), svg::draw_glued(notation::to_text(*symbol), *polygon, *picture), {});
+  return kDone;
+}
+
+}  // namespace
+
 int draw_svg(const SvgArguments& a, const Common& common) {
   if (common.json && a.output == "-")
     throw UsageError("only one thing can go to standard output: the picture or --json; write it with -o FILE");
   Diagnostics notes;
   const auto room = room_of(a, notes);
   if (!room) {
+    if (const auto done = draw_symbol(a, common)) return *done;
     print(room.error(), common);
     return kSceneWrong;
   }
@@ -192,18 +236,7 @@ int draw_svg(const SvgArguments& a, const Common& common) {
   refuse_inputs({a.output}, {a.motif});
   const svg::RoomDrawing drawing = svg::draw_room(*room, *picture);
   notes.insert(notes.end(), drawing.notes.begin(), drawing.notes.end());
-  if (!common.quiet) print_message(to_text(notes));
-  write_output(a.output, drawing.svg);
-  if (common.json)
-    write_standard_output(nlohmann::ordered_json{{"output", a.output},
-                                             {"notation", notation::to_text(room->orbifold)},
-                                             {"copies", drawing.copies},
-                                             {"width", drawing.width},
-                                             {"height", drawing.height}}
-                              .dump(2) +
-                          "\n");
-  else if (!common.quiet && a.output != "-")
-    print_message(fmt::format("{}: {} copies of {}\n", a.output, drawing.copies, notation::to_text(room->orbifold)));
+  write_drawing(a, common, notation::to_text(room->orbifold), drawing, notes);
   return kDone;
 }
 

@@ -197,8 +197,11 @@ int verify(const VerifyArguments& a, const Common& common) {
                notes, common);
   if (!all && !loaded->scene.lamps.empty() && !common.quiet)
     print_message(
-        "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 --threshold 0.99 "
-        "compares them fairly\n");
+        a.samples >= 64 && a.within >= 4 && a.threshold <= 0.99
+            ? "hint: exports hold light at texels, so lit scenes differ along edges, shadows and glass; these weigh less in larger "
+              "pictures, such as --size 800x600\n"
+            : "hint: exports hold light at texels, so lit scenes differ along shadows and glass; --samples 64 --within 4 "
+              "--threshold 0.99 compares them fairly, in a picture of 800x600\n");
   return all ? kDone : kSceneWrong;
 }
 

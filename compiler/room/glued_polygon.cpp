@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -255,6 +256,7 @@ void lay_out(GluedPolygon& polygon, const Real& r) {
   const Space space = polygon.space;
   const std::size_t n = polygon.sides.size();
   const std::vector<Real> touch = touch_angles(polygon, angles, r);
+  for (const Real& angle : touch) polygon.touch_angles.push_back(static_cast<double>(angle));
   std::vector<Real> tangents;
   for (std::size_t i = 0; i < n; ++i)
     tangents.push_back(n == 2 ? Real(real_pi() / 2)
@@ -322,6 +324,20 @@ std::vector<AmbientMap> crossing_maps(const GluedPolygon& polygon) {
     maps.push_back(map);
   }
   return maps;
+}
+
+std::vector<geometry::Isometry> crossing_isometries(const GluedPolygon& polygon) {
+  const Space space = polygon.space;
+  std::vector<geometry::Isometry> all;
+  for (std::size_t i = 0; i < polygon.sides.size(); ++i) {
+    const GluedSide& side = polygon.sides[i];
+    const geometry::Isometry turn =
+        side.kind == SideKind::pair ? geometry::rotation(space, std::numbers::pi) : geometry::reflection(space, {0, 1, 0});
+    all.push_back(geometry::rotation(space, polygon.touch_angles[i]) * geometry::translation_by(space, polygon.inradius, 0) * turn *
+                  geometry::translation_by(space, -polygon.inradius, 0) *
+                  geometry::rotation(space, -polygon.touch_angles[static_cast<std::size_t>(side.partner)]));
+  }
+  return all;
 }
 
 }  // namespace orbc::room

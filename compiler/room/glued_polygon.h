@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compiler/base/result.h"
-#include "compiler/geometry/space.h"
+#include "compiler/geometry/isometry.h"
 #include "compiler/notation/symbol.h"
 
 namespace orbc::room {
@@ -28,6 +28,7 @@ struct GluedPolygon {
   std::vector<GluedSide> sides;
   std::vector<int> corner_fraction;           ///< the interior angle of corner i is 2π/corner_fraction[i]
   std::vector<std::complex<double>> corners;  ///< in the disk chart; E²: plane coordinates
+  std::vector<double> touch_angles;           ///< the direction from the centre to where side i touches the circle
   double inradius = 0;
   std::string inradius_decimal;            ///< to 20 digits
   std::vector<std::vector<int>> relators;  ///< one for each class of corners: the sides that a walk around it crosses
@@ -49,5 +50,8 @@ using AmbientMap = std::array<std::array<double, 3>, 3>;
 /// For each side the isometry that carries the polygon onto its neighbour behind that side, and the side's partner onto the side.
 /// Error: 1e-16 of the entries.
 [[nodiscard]] std::vector<AmbientMap> crossing_maps(const GluedPolygon& polygon);
+
+/// The same as Möbius maps.
+[[nodiscard]] std::vector<geometry::Isometry> crossing_isometries(const GluedPolygon& polygon);
 
 }  // namespace orbc::room

@@ -23,11 +23,11 @@ constexpr double kTooltipFrom = 8;  // page units: narrower copies are hard to h
 constexpr double kMotifFrom = 7;    // narrower copies show no motif
 constexpr double kCaption = 34;
 
-const char* chart_name(const Tiling& tiling, const Page& page) {
+const char* chart_name(Space space, const Page& page) {
   if (page.half_plane) return "hyperbolic plane, upper half-plane";
-  if (tiling.room.space == Space::euclidean) return "Euclidean plane";
+  if (space == Space::euclidean) return "Euclidean plane";
   const bool straight = page.straight;
-  if (tiling.room.space == Space::hyperbolic) return straight ? "hyperbolic plane, Klein disk" : "hyperbolic plane, Poincaré disk";
+  if (space == Space::hyperbolic) return straight ? "hyperbolic plane, Klein disk" : "hyperbolic plane, Poincaré disk";
   return straight ? "sphere, gnomonic projection" : "sphere, stereographic projection";
 }
 
@@ -158,7 +158,7 @@ std::string head(const Tiling& tiling, const Page& page, const std::vector<Tile>
       coordinate(page.width / options.per_unit) + options.unit + "\" height=\"" + coordinate(page.height / options.per_unit) + options.unit;
   out += "\" viewBox=\"0 0 " + coordinate(page.width) + " " + coordinate(page.height) + "\" role=\"img\">\n";
   out += "<title>" + escaped(tiling.title) + "</title>\n<desc>The mirror room " + escaped(tiling.title) + " and its " +
-         std::to_string(tiles.size()) + " drawn copies; " + chart_name(tiling, page) + ". ";
+         std::to_string(tiles.size()) + " drawn copies; " + chart_name(tiling.room.space, page) + ". ";
   out += options.colors ? "Mirror images" : "The room itself is orange, mirror images";
   out += tiling.coloring == Tiling::Coloring::parity ? options.colors ? " have the second colour" : " are dark, their mirror images light"
                                                        : " and copies are coloured by the number of mirrors on the way to them";
@@ -166,13 +166,6 @@ std::string head(const Tiling& tiling, const Page& page, const std::vector<Tile>
     out += ", copies are cut to what the eye sees of them";
   if (options.labels) out += ". Circles hold the orders of the corners, italic numbers count the walls";
   return out + ".</desc>\n";
-}
-
-std::string caption_text(const Tiling& tiling, const Page& page) {
-  return "<text" + attribute("x", page.width / 2) + attribute("y", page.height - 12 * page.unit) +
-         " text-anchor=\"middle\" font-family=\"Georgia, 'Times New Roman', serif\"" + attribute("font-size", 19 * page.unit) + " fill=\"" +
-         kInk + "\"><tspan font-weight=\"bold\">" + escaped(tiling.title) + "</tspan><tspan" + attribute("dx", 8 * page.unit) +
-         " fill-opacity=\"0.7\">— " + chart_name(tiling, page) + "</tspan></text>\n";
 }
 
 /// What is left of a page where copies are too small to be drawn, and the border to which everything is cut.
@@ -196,6 +189,13 @@ Border border_of(const Page& page) {
 }
 
 }  // namespace
+
+std::string caption_line(const std::string& title, const Page& page, Space space) {
+  return "<text" + attribute("x", page.width / 2) + attribute("y", page.height - 12 * page.unit) +
+         " text-anchor=\"middle\" font-family=\"Georgia, 'Times New Roman', serif\"" + attribute("font-size", 19 * page.unit) + " fill=\"" +
+         kInk + "\"><tspan font-weight=\"bold\">" + escaped(title) + "</tspan><tspan" + attribute("dx", 8 * page.unit) +
+         " fill-opacity=\"0.7\">— " + chart_name(space, page) + "</tspan></text>\n";
+}
 
 double caption_height(double width) { return kCaption * width / 1000; }
 
@@ -232,7 +232,7 @@ std::string draw_tiling(const Tiling& tiling, const Page& page, double caption, 
     out += "<path d=\"M" + coordinate(page.window->left) + " " + coordinate(page.window->bottom) + "H" + coordinate(page.window->right) +
            "\" fill=\"none\"" + ink + attribute("stroke-width", 1.6 * page.unit) + "/>\n";
   if (options.labels) out += labels(tiling.room, page);
-  if (options.labels && caption > 0) out += caption_text(tiling, page);
+  if (options.labels && caption > 0) out += caption_line(tiling.title, page, tiling.room.space);
   return out + "</svg>\n";
 }
 

@@ -38,6 +38,9 @@ struct SvgOptions {
 /// The same on a page of one's own, for instance of make_room_page; the caption has `caption` units at its foot (labels only).
 [[nodiscard]] std::string draw_tiling(const driver::Tiling& tiling, const Page& page, double caption, const SvgOptions& options);
 
+/// The caption at the foot of a page: the title, and what chart it is.
+[[nodiscard]] std::string caption_line(const std::string& title, const Page& page, geometry::Space space);
+
 /// Height of a caption on a page so wide.
 [[nodiscard]] double caption_height(double width);
 

@@ -117,6 +117,14 @@ with folder() as name:
     told = json.loads(run([ORBC, 'svg', '*237', '-o', target, '--json']).stdout)
     check(told['notation'] == '*237' and told['copies'] > 1000, 'svg --json')
 
+    # orbifolds that are not closed by mirrors alone
+    for notation, model in (('22*', 'disk'), ('oo', 'disk'), ('oo', 'klein'), ('23x', 'half-plane'), ('o', 'plane'), ('532', 'disk'), ('x', 'klein')):
+        svg(notation, '--model', model, '--motif', 'F')
+    told = json.loads(run([ORBC, 'svg', '332', '-o', target, '--json', '--smallest', '0.1']).stdout)
+    check(told['notation'] == '332' and told['copies'] == 12, 'svg 332 draws the whole group')
+    for words in (['o', '--model', 'half-plane'], ['22*', '--cuts'], ['oo', '--model', 'hyperboloid'], ['oo', '--model', 'plane'], ['22*', '--shape', 'paper']):
+        svg(*words, code=2)
+
     # mistakes
     for words in (['*237', '--size', 'big'], ['*237', '--size', '0'], ['*237', '--size', '800x'], ['*237', '--colors', 'red'], ['*237', '--colors', 'red,nocolor'],
                   ['*235', '--model', 'half-plane'], ['*235', '--model', 'plane'], ['*237', '--model', 'cube'], ['*237', '--lines', '-1'],
@@ -124,6 +132,6 @@ with folder() as name:
                   ['*235', '--geodesic', '1,0,-1,0'], ['*235', '--geodesic', '0,0,nan,1'], ['*235', '--geodesic', '0,0,1,1,1']):
         svg(*words, code=2)
     check(b'known' not in svg('*23', code=1).stderr, 'a bad orbifold')
-    for words in (['*237', '--motif', '?'], ['*237', '--motif', 'M0 0'], ['*333', '--aspect', '2'], ['22*']):
+    for words in (['*237', '--motif', '?'], ['*237', '--motif', 'M0 0'], ['*333', '--aspect', '2'], ['23'], ['22q']):
         check(b'error[' in svg(*words, code=1).stderr, f'{words} is refused')
 finish()
