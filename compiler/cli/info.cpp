@@ -116,6 +116,7 @@ std::string json_text(const Facts& f, int copies) {
     add_sides(f, add, list);
   }
   if (order) add("order", to_string(*order));
+  add("wall_lengths", list(f.room.walls, [&](const room::Wall& w) { return number(w.length); }));
   add("angles", list(f.room.corners, [&](const room::Corner& c) { return number(c.angle); }));
   if (!(f.orbifold.strip && f.orbifold.corners.empty())) add("inradius", f.room.inradius > 0 ? number(f.room.inradius) : "null");
   add("circumradius", number(f.room.circumradius));
