@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compiler/light/guide.h"
 #include "compiler/light/lighting.h"
 #include "compiler/place/alpha_mask.h"
 
